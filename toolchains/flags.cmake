@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+# Flags for every target. Floating point is the same everywhere: no contraction to fused multiply-add, no fast-math.
+add_compile_options(-Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  # The x86-64 baseline would make Highway scalar.
+  add_compile_options(-march=${NEONTETRA_X86_LEVEL})
+endif()
+if(NEONTETRA_DETERMINISTIC)
+  add_compile_definitions(EIGEN_DONT_VECTORIZE)
+endif()
+if(NEONTETRA_SANITIZE STREQUAL "address")
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+elseif(NEONTETRA_SANITIZE STREQUAL "thread")
+  add_compile_options(-fsanitize=thread)
+  add_link_options(-fsanitize=thread)
+endif()

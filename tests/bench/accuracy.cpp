@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/support/block.h"
+
+namespace nt::test {
+namespace {
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+double distance_to_segment_sq(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 ab = b - a;
+  const float n = length_sq(ab);
+  const float t = n > 0 ? std::clamp(dot(p - a, ab) / n, 0.0f, 1.0f) : 0.0f;
+  return length_sq(p - (a + ab * t));
+}
+
+double distance_sq(Vec2 p, const std::vector<Vec2>& line) {
+  double best = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    best = std::min(best, distance_to_segment_sq(p, line[i], line[i + 1]));
+  }
+  return best;
+}
+
+std::vector<Vec2> axis_of(const FishPose& pose) {
+  std::vector<Vec2> axis{pose.head};
+  for (int i = pose.u_num - 1; i >= 0; --i) axis.push_back(pose.up_axis[i]);
+  axis.push_back(pose.centre);
+  for (int i = 0; i < pose.l_num; ++i) axis.push_back(pose.low_axis[i]);
+  axis.push_back(pose.tail);
+  return axis;
+}
+
+void score_fin(float true_confidence, float our_confidence, Vec2 true_tip, Vec2 our_tip, float body, Accuracy& out) {
+  const bool open = true_confidence >= 1.0f;
+  const bool seen = our_confidence > 0.0f;
+  out.fins_open += open;
+  out.fins_claimed += seen;
+  // A fin between folded and open may be seen or not: only a fin that is wholly folded makes a sighting false.
+  out.fins_true += seen && true_confidence > 0.0f;
+  if (!open || !seen) return;
+  ++out.fins_found;
+  out.fin_tip.push_back(100.0f * length(our_tip - true_tip) / body);
+}
+
+void score_pose(const FishPose& ours, const TankTruth& truth, Accuracy& out) {
+  const FishPose& real = truth.pose;
+  const float per_cent = 100.0f / real.axis_len;
+  out.head.push_back(length(ours.head - real.head) * per_cent);
+  out.tail.push_back(length(ours.tail - real.tail) * per_cent);
+  out.centre.push_back(length(ours.centre - real.centre) * per_cent);
+  out.midline.push_back(static_cast<float>(midline_rms_px(ours, truth.midline)) * per_cent);
+  out.direction.push_back(
+      static_cast<float>(kDegrees * std::abs(std::atan2(cross(real.dir, ours.dir), dot(real.dir, ours.dir)))));
+  score_fin(real.confidence.l_fin, ours.confidence.l_fin, real.l_fin, ours.l_fin, real.axis_len, out);
+  score_fin(real.confidence.r_fin, ours.confidence.r_fin, real.r_fin, ours.r_fin, real.axis_len, out);
+}
+
+void score(const FishPose& ours, const TankTruth& truth, int64_t frame, const OddFrame& odd, Accuracy& out) {
+  const auto report = [&](const std::string& what) {
+    if (odd) odd(frame, what);
+  };
+  ++out.scored;
+  out.visible += truth.visible;
+  const bool stray =
+      ours.ok() && (!truth.visible || length(ours.centre - truth.pose.centre) > 0.5f * truth.pose.axis_len);
+  if (stray) {
+    ++out.false_poses;
+    report(truth.visible ? "false pose: not at the fish" : "false pose: no fish wholly visible");
+    return;
+  }
+  if (!truth.visible) return;
+  if (!ours.ok()) {
+    report(std::string("missed: ") + to_string(ours.status));
+    return;
+  }
+  ++out.posed;
+  if (length(ours.head - truth.pose.tail) < length(ours.head - truth.pose.head)) {
+    ++out.wrong_end;
+    report("wrong end");
+  }
+  score_pose(ours, truth, out);
+}
+
+}  // namespace
+
+double midline_rms_px(const FishPose& pose, const std::vector<Vec2>& midline) {
+  constexpr int kSteps = 8;  // per bone: under 1 % of the body length apart
+  const std::vector<Vec2> axis = axis_of(pose);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i + 1 < axis.size(); ++i) {
+    for (int k = 0; k < kSteps; ++k, ++count) {
+      sum += distance_sq(lerp(axis[i], axis[i + 1], static_cast<float>(k) / kSteps), midline);
+    }
+  }
+  sum += distance_sq(axis.back(), midline);
+  return std::sqrt(sum / (count + 1));
+}
+
+double quantile(std::vector<float> values, double q) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+void Accuracy::add(const Accuracy& other) {
+  scored += other.scored, visible += other.visible, posed += other.posed;
+  wrong_end += other.wrong_end, false_poses += other.false_poses;
+  fins_open += other.fins_open, fins_found += other.fins_found;
+  fins_claimed += other.fins_claimed, fins_true += other.fins_true;
+  const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(head, other.head), append(tail, other.tail), append(centre, other.centre);
+  append(midline, other.midline), append(fin_tip, other.fin_tip), append(direction, other.direction);
+}
+
+Accuracy measure_accuracy(const AccuracyRun& run, const OddFrame& odd) {
+  if (find_tank_scene(run.tank.scene) == nullptr) throw std::runtime_error("no tank scene is called " + run.tank.scene);
+  Limits limits;
+  limits.max_width = run.tank.width, limits.max_height = run.tank.height;
+  const Block block(Capture::bytes_needed(limits, run.capture));
+  Result<Capture*> made = Capture::create(block.span(), limits, run.capture, run.tank.width, run.tank.height);
+  if (!made.ok()) throw std::runtime_error(made.status().message);
+  Capture& capture = *made.value();
+
+  Tank tank(run.tank);
+  Accuracy out;
+  out.scene = run.tank.scene;
+  for (int n = 0; n < run.frames; ++n) {
+    Frame frame;
+    frame.luma = tank.render_next();
+    frame.sequence = static_cast<uint64_t>(n);
+    frame.timestamp_ns = static_cast<int64_t>(1e9 * n / run.tank.fps);
+    capture.step(frame);
+    if (n >= run.warm_up) score(capture.pose(), tank.truth(), n, odd, out);
+  }
+  return out;
+}
+
+}  // namespace nt::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// How near the capture comes to the tank's truth, over whole runs and with the background model's own masks.
+//
+// Scene, seed, size, frames -> counts and errors. Lengths are per cent of the body length, which is the truth's axis
+// length in the same frame; angles are degrees. Only frames whose fish is wholly visible are scored; the first
+// `warm_up` frames are not, because the background is being learned.
+// Used by bench_accuracy (long runs) and by the tests that pin the figures (short runs).
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/pipeline/pipeline.h"
+#include "platform/sim/tank.h"
+
+namespace nt::test {
+
+struct AccuracyRun {
+  TankSettings tank;
+  CaptureSettings capture;
+  int frames = 2000;
+  int warm_up = 30;
+};
+
+struct Accuracy {
+  std::string scene;
+  int scored = 0;        // frames after the warm-up
+  int visible = 0;       // of these, with the fish wholly inside the frame
+  int posed = 0;         // of the visible ones, with a pose
+  int wrong_end = 0;     // our head is nearer to the true tail than to the true head
+  int false_poses = 0;   // a pose with no fish wholly visible, or more than half a body length from the fish
+  int fins_open = 0;     // fins that are open in the truth of a frame with a pose ...
+  int fins_found = 0;    // ... and of these, seen by us
+  int fins_claimed = 0;  // fins that we say we see ...
+  int fins_true = 0;     // ... and of these, open in the truth
+  // One entry per pose (fins: per open fin that was seen).
+  std::vector<float> head, tail, centre, midline, fin_tip;  // % of the body length
+  std::vector<float> direction;                             // degrees
+
+  void add(const Accuracy& other);
+  double pose_share() const { return visible > 0 ? static_cast<double>(posed) / visible : 0.0; }
+  double fin_recall() const { return fins_open > 0 ? static_cast<double>(fins_found) / fins_open : 0.0; }
+  double fin_precision() const { return fins_claimed > 0 ? static_cast<double>(fins_true) / fins_claimed : 0.0; }
+};
+
+// A frame worth looking at: "missed (lost)", "wrong end", "false pose".
+using OddFrame = std::function<void(int64_t frame, const std::string& what)>;
+
+// Throws std::runtime_error when the scene or the settings are refused.
+Accuracy measure_accuracy(const AccuracyRun& run, const OddFrame& odd = {});
+
+// The q-quantile (0..1) of the values; 0 when there are none.
+double quantile(std::vector<float> values, double q);
+
+// Root mean square distance, pixels, of the pose's axis (head, up_axis, centre, low_axis, tail as a polyline, sampled
+// densely) from the true midline.
+double midline_rms_px(const FishPose& pose, const std::vector<Vec2>& midline);
+
+}  // namespace nt::test

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/landmarks/fins.h"
+
+#include "core/base/det_math.h"
+
+namespace nt {
+namespace {
+
+constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
+constexpr float kStandsOut = 0.035f;         // of the length: less is a bulge of the body or outline noise
+constexpr float kHollow = 0.008f;            // of the length: depth of a junction below the line from tip to R
+
+// One side of the outline as a sequence from head to tail.
+struct SideWalk {
+  int begin, count, step, n;
+  int at(int k) const { return ((begin + step * k) % n + n) % n; }
+};
+
+// Depth of `p` below the line from q to r, positive on the side of the fish's axis.
+float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
+
+struct Junction {
+  int k = 0;
+  float depth = 0;
+};
+
+// The junction between the tip (position k_tip of the walk) and P at position k_end (0: head, last: tail).
+Junction find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward) {
+  const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
+  const int step = k_end > k_tip ? 1 : -1;
+  const Vec2 q = point(k_tip), to_p = normalised(point(k_end) - q);
+  // The angle PQR is largest where its cosine is smallest. Points next to the tip give no direction.
+  int k_r = k_end;
+  float smallest = 2;
+  for (int k = k_tip + 3 * step; (k_end - k) * step > 0; k += step) {
+    const float c = dot(to_p, normalised(point(k) - q));
+    if (c < smallest) smallest = c, k_r = k;
+  }
+  // [F]: the point of QR farthest from the line QR. Farthest on the inner side: the hollow where fin and body meet.
+  const float sign = step > 0 ? inward : -inward;
+  Junction best{k_r, 0};
+  for (int k = k_tip; (k_r - k) * step >= 0; k += step) {
+    const float depth = depth_below(q, point(k_r), point(k), sign);
+    if (depth > best.depth) best = {k, depth};
+  }
+  return best;
+}
+
+}  // namespace
+
+Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right, float axis_length, Side side) {
+  const int n = static_cast<int>(contour.size());
+  const bool is_right = side == Side::right;
+  const SideWalk walk{right.begin, is_right ? right.count : n - right.count, is_right ? 1 : -1, n};
+  const auto place = [&](int k) {
+    const AlongAxis a = along[static_cast<std::size_t>(walk.at(k))];
+    return AlongAxis{a.s, is_right ? a.d : -a.d};
+  };
+  Fin fin;
+  int k_tip = -1;
+  float farthest = 0;
+  for (int k = 1; k < walk.count; ++k) {
+    const AlongAxis a = place(k);
+    if (a.s >= kFrom && a.s <= kTo && a.d > farthest) farthest = a.d, k_tip = k;
+  }
+  if (k_tip < 0) return fin;
+  // Walking head -> tail, the axis lies to the right hand on the left side and to the left hand on the right side;
+  // cross() is positive clockwise, so inward is +1 on the right side.
+  const float inward = is_right ? 1.0f : -1.0f;
+  const Junction top = find_junction(contour, walk, k_tip, 0, inward);
+  const Junction bottom = find_junction(contour, walk, k_tip, walk.count, inward);
+  const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
+  const float height = -depth_below(point(top.k), point(bottom.k), point(k_tip), inward);
+  fin.tip = walk.at(k_tip), fin.top = walk.at(top.k), fin.bottom = walk.at(bottom.k);
+  const float stands_out = height / axis_length;
+  const float hollow = det::max(top.depth, bottom.depth) / axis_length;
+  fin.seen = stands_out > kStandsOut && hollow > kHollow && top.k < k_tip && bottom.k > k_tip;
+  if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
+  return fin;
+}
+
+}  // namespace nt

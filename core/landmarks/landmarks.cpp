@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/landmarks/landmarks.h"
+
+#include "core/base/det_math.h"
+#include "core/base/image_view.h"
+#include "core/landmarks/body.h"
+#include "core/landmarks/fins.h"
+#include "core/outline/fourier.h"
+#include "core/outline/midline.h"
+#include "core/outline/moments.h"
+
+namespace nt {
+namespace {
+
+// Shape and travel of consecutive frames are nearly the same observation, so each later frame adds only a part.
+constexpr float kRepeatedEvidence = 0.2f;
+// The centring step may move a station this far (share of the length) before the fins are cut off.
+constexpr float kFirstShift = 0.02f;
+// The part of the axis at either end that is drawn straight on to the outline.
+constexpr float kTrim = 0.05f;
+
+struct LandmarksImpl final : Landmarks {
+  LandmarkSettings settings;
+  std::span<Vec2> contour;       // a copy, clockwise on the screen
+  std::span<float> arc;
+  std::span<AlongAxis> along;
+  std::span<Vec2> smooth;
+  Axis axis;
+  float log_odds = 0;
+  bool was_swapped = false;
+  bool found = false;
+
+  bool find_outline(std::span<const Vec2> points, const LandmarkHints& hints, FishPose& pose);
+  void decide_order(const LandmarkHints& hints, const Moments& moments, std::span<const Vec2> c);
+  void measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left, FinCut& right_cut);
+  void sample_axis(Vec2 barycentre, FishPose& pose) const;
+};
+
+LandmarksImpl& impl(Landmarks& l) { return static_cast<LandmarksImpl&>(l); }
+const LandmarksImpl& impl(const Landmarks& l) { return static_cast<const LandmarksImpl&>(l); }
+
+Vec2 at(std::span<const Vec2> c, int i) { return c[static_cast<std::size_t>(i)]; }
+
+int index_gap(int from, int to, int n) { return ((to - from) % n + n) % n; }
+
+int nearest_index(std::span<const Vec2> c, Vec2 p) {
+  int best = 0;
+  float best_d = 1e30f;
+  for (int i = 0; i < static_cast<int>(c.size()); ++i) {
+    const float d = length_sq(at(c, i) - p);
+    if (d < best_d) best_d = d, best = i;
+  }
+  return best;
+}
+
+void reverse(Axis& axis) {
+  for (int j = 0; j < kStations / 2; ++j) {
+    const Vec2 t = axis.points[static_cast<std::size_t>(j)];
+    axis.points[static_cast<std::size_t>(j)] = axis.points[static_cast<std::size_t>(kStations - 1 - j)];
+    axis.points[static_cast<std::size_t>(kStations - 1 - j)] = t;
+  }
+}
+
+// Orders the axis so that it starts at the head, and updates the belief.
+void LandmarksImpl::decide_order(const LandmarkHints& hints, const Moments&, std::span<const Vec2> c) {
+  const int n = static_cast<int>(c.size());
+  const int head = nearest_index(c, axis.points[0]), tail = nearest_index(c, axis.points[kStations - 1]);
+  const Stretch right{head, index_gap(head, tail, n)};
+  project_outline(c, right, axis, along);
+  const WidthProfile widths = width_profile(along.first(c.size()), right, {}, {});
+  const float evidence = order_evidence(widths, axis, hints.travel);
+  float belief = evidence;  // that axis.points[0] is the head
+  was_swapped = false;
+  bool same_order = true;
+  if (hints.has_last) {
+    const float same = length(axis.points[0] - hints.last_head) + length(axis.points[kStations - 1] - hints.last_tail);
+    const float crossed = length(axis.points[0] - hints.last_tail) + length(axis.points[kStations - 1] - hints.last_head);
+    same_order = same <= crossed;
+    const float carried = carried_belief(hints.head_log_odds);
+    belief = (same_order ? carried : -carried) + kRepeatedEvidence * evidence;
+  }
+  belief = det::clamp(belief, -8.0f, 8.0f);
+  if (belief < 0) reverse(axis);
+  log_odds = det::abs(belief);
+  if (hints.has_last) was_swapped = (belief >= 0) != same_order;
+}
+
+void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left_cut,
+                                 FinCut& right_cut) {
+  const std::span<const AlongAxis> places = along.first(c.size());
+  const Fin l = find_fin(c, places, right, axis.length, Side::left);
+  const Fin r = find_fin(c, places, right, axis.length, Side::right);
+  left_cut = {l.seen, l.top, l.bottom};
+  right_cut = {r.seen, r.top, r.bottom};
+  pose.confidence.l_fin = l.confidence, pose.confidence.r_fin = r.confidence;
+  pose.l_fin = at(c, l.tip), pose.jun_tl = at(c, l.top), pose.jun_bl = at(c, l.bottom);
+  pose.r_fin = at(c, r.tip), pose.jun_tr = at(c, r.top), pose.jun_br = at(c, r.bottom);
+}
+
+void LandmarksImpl::sample_axis(Vec2 barycentre, FishPose& pose) const {
+  // The axis point nearest to the barycentre ([F] section 4.3, end), between stations too.
+  float best = 1e30f, centre_s = 0.4f;
+  for (int j = 0; j + 1 < kStations; ++j) {
+    const Vec2 a = axis.points[static_cast<std::size_t>(j)], ab = axis.points[static_cast<std::size_t>(j) + 1] - a;
+    const float u = det::clamp(dot(barycentre - a, ab) / det::max(length_sq(ab), 1e-12f), 0.0f, 1.0f);
+    const float d = length_sq(barycentre - (a + ab * u));
+    if (d < best) best = d, centre_s = (static_cast<float>(j) + u) / (kStations - 1);
+  }
+  pose.centre = point_at(axis, centre_s);
+  pose.u_num = settings.u_num, pose.l_num = settings.l_num;
+  for (int i = 0; i < settings.u_num; ++i) {
+    const float u = static_cast<float>(i + 1) / static_cast<float>(settings.u_num + 1);
+    pose.up_axis[i] = point_at(axis, centre_s * (1 - u));
+  }
+  for (int i = 0; i < settings.l_num; ++i) {
+    const float u = static_cast<float>(i + 1) / static_cast<float>(settings.l_num + 1);
+    pose.low_axis[i] = point_at(axis, centre_s + (1 - centre_s) * u);
+  }
+}
+
+bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHints& hints, FishPose& pose) {
+  found = false;
+  const std::size_t n = points.size();
+  if (n < 16 || n > contour.size()) return false;
+  Moments moments = polygon_moments(points);
+  const bool clockwise = moments.area > 0;
+  for (std::size_t i = 0; i < n; ++i) contour[i] = points[clockwise ? i : n - 1 - i];
+  const std::span<const Vec2> c = contour.first(n);
+  arc_lengths(c, arc.first(n + 1));
+  const std::span<const float> arcs = arc.first(n + 1);
+  const float perimeter = arcs[n];
+
+  // First guess of the ends, the paper's axis between them, then which end is which.
+  const Ends ends = find_ends(c, arcs, moments.centroid);
+  const EllipticFourier fourier = fit_fourier(c, arcs, settings.harmonics);
+  const auto t = [&](int i) { return arcs[static_cast<std::size_t>(i)] / perimeter; };
+  axis = medial_axis(fourier, t(ends.head), t(ends.tail), smooth);
+  if (axis.length < 8.0f || axis.length < 1.2f * det::abs(moments.area) / axis.length) return false;
+  decide_order(hints, moments, c);
+  int head = nearest_index(c, axis.points[0]), tail = nearest_index(c, axis.points[kStations - 1]);
+  // nearest_index works from the smooth axis, which ends short of the tips; the true tips are the ends found before.
+  if (index_gap(head, ends.head, static_cast<int>(n)) != 0 || index_gap(tail, ends.tail, static_cast<int>(n)) != 0) {
+    const bool kept = length(at(c, ends.head) - axis.points[0]) < length(at(c, ends.tail) - axis.points[0]);
+    head = kept ? ends.head : ends.tail;
+    tail = kept ? ends.tail : ends.head;
+  }
+  tail = notch_of_tail(c, arcs, moments.centroid, tail);
+  axis = medial_axis(fourier, t(head), t(tail), smooth);
+
+  // Ours: centre the axis in the original outline, first carefully, then without the fins.
+  const Stretch right{head, index_gap(head, tail, static_cast<int>(n))};
+  axis = extended_to_outline(axis, c, kTrim);
+  project_outline(c, right, axis, along);
+  axis = centred(axis, width_profile(along.first(n), right, {}, {}), kFirstShift * axis.length);
+  axis = extended_to_outline(axis, c, kTrim);
+  FinCut left_cut, right_cut;
+  for (int round = 0; round < 2; ++round) {
+    project_outline(c, right, axis, along);
+    measure_fins(c, right, pose, left_cut, right_cut);
+    axis = centred(axis, width_profile(along.first(n), right, left_cut, right_cut), 0);
+    axis = extended_to_outline(axis, c, kTrim);
+  }
+
+  sample_axis(moments.centroid, pose);
+  pose.head = axis.points[0], pose.tail = axis.points[kStations - 1];
+  pose.axis_len = axis.length;
+  // The principal axis, signed towards the head ([F] section 4.1).
+  pose.dir = dot(moments.axis, pose.head - pose.tail) >= 0 ? moments.axis : moments.axis * -1.0f;
+  const float sure = 1.0f / (1.0f + det::exp(-log_odds));
+  pose.confidence.centre = pose.confidence.axis = 1.0f;
+  pose.confidence.head = pose.confidence.tail = sure;
+  found = true;
+  return true;
+}
+
+}  // namespace
+
+Landmarks* Landmarks::create(Arena& arena, const Limits& limits, const LandmarkSettings& settings) {
+  auto self = arena.take<LandmarksImpl>(1);
+  const auto n = static_cast<std::size_t>(max_int(limits.max_contour_points, 0));
+  auto contour = arena.take<Vec2>(n);
+  auto arc = arena.take<float>(n + 1);
+  auto along = arena.take<AlongAxis>(n);
+  auto smooth = arena.take<Vec2>(2 * kStations);
+  if (self.empty() || arena.full()) return nullptr;
+  LandmarksImpl& l = self[0];
+  l.settings = settings;
+  l.settings.u_num = clamp_int(settings.u_num, 1, kMaxUpAxis);
+  l.settings.l_num = clamp_int(settings.l_num, 1, kMaxLowAxis);
+  l.settings.harmonics = clamp_int(settings.harmonics, 1, kMaxHarmonics);
+  l.contour = contour, l.arc = arc, l.along = along, l.smooth = smooth;
+  return &l;
+}
+
+bool Landmarks::find(std::span<const Vec2> contour, const LandmarkHints& hints, FishPose& pose) {
+  return impl(*this).find_outline(contour, hints, pose);
+}
+float Landmarks::head_log_odds() const { return impl(*this).log_odds; }
+bool Landmarks::swapped() const { return impl(*this).was_swapped; }
+std::span<const Vec2> Landmarks::smooth_contour() const { return impl(*this).smooth; }
+std::span<const Vec2> Landmarks::midline() const { return impl(*this).axis.points; }
+
+const char* to_string(PoseStatus status) {
+  switch (status) {
+    case PoseStatus::ok: return "ok";
+    case PoseStatus::partial: return "partial";
+    case PoseStatus::occluded: return "occluded";
+    case PoseStatus::absent: return "absent";
+    case PoseStatus::lost: return "lost";
+    case PoseStatus::relearn: return "relearn";
+  }
+  return "";
+}
+
+}  // namespace nt

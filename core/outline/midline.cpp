@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/outline/midline.h"
+
+#include "core/base/det_math.h"
+#include "core/base/image_view.h"
+
+namespace nt {
+namespace {
+
+constexpr int kLast = kStations - 1;
+
+float fraction_between(float from, float to) {
+  const float d = to - from;
+  return d < 0 ? d + 1.0f : d;
+}
+
+// The foot of `p` on segment j of the axis, as a place; squared distance in `dist_sq`.
+AlongAxis foot(const Axis& axis, int j, Vec2 p, float& dist_sq) {
+  const Vec2 a = axis.points[static_cast<std::size_t>(j)], b = axis.points[static_cast<std::size_t>(j) + 1];
+  const Vec2 ab = b - a;
+  const float len_sq = det::max(length_sq(ab), 1e-12f);
+  float u = dot(p - a, ab) / len_sq;
+  // The end segments go on beyond the axis, so that the caps get places outside [0, 1].
+  const float lo = j == 0 ? -1e3f : 0.0f, hi = j == kLast - 1 ? 1e3f : 1.0f;
+  u = det::clamp(u, lo, hi);
+  const Vec2 offset = p - (a + ab * u);
+  dist_sq = length_sq(offset);
+  // ab points to the tail; the fish's right is then to the left of ab on the screen: cross(ab, offset) < 0.
+  const float side = -cross(ab, offset);
+  const float d = det::sqrt(dist_sq);
+  return {(static_cast<float>(j) + u) / kLast, side < 0 ? -d : d};
+}
+
+AlongAxis nearest_from(const Axis& axis, Vec2 p, int& segment) {
+  float best = 1e30f;
+  AlongAxis place;
+  int best_segment = segment;
+  const int lo = max_int(segment - 6, 0), hi = min_int(segment + 6, kLast - 1);
+  for (int j = lo; j <= hi; ++j) {
+    float dist_sq = 0;
+    const AlongAxis at = foot(axis, j, p, dist_sq);
+    if (dist_sq < best) best = dist_sq, place = at, best_segment = j;
+  }
+  segment = best_segment;
+  return place;
+}
+
+// Fills the stations that the segment between two projected points crosses, keeping the wider value.
+void add_edge(std::array<float, kStations>& side, AlongAxis a, AlongAxis b, float sign) {
+  if (a.s > b.s) {
+    const AlongAxis t = a;
+    a = b, b = t;
+  }
+  const int first = max_int(static_cast<int>(a.s * kLast) + (a.s * kLast > 0 ? 1 : 0), 0);
+  for (int j = max_int(first - 1, 0); j <= kLast; ++j) {
+    const float s = static_cast<float>(j) / kLast;
+    if (s < a.s) continue;
+    if (s > b.s) break;
+    const float u = b.s > a.s ? (s - a.s) / (b.s - a.s) : 0.0f;
+    side[static_cast<std::size_t>(j)] = det::max(side[static_cast<std::size_t>(j)], sign * (a.d + (b.d - a.d) * u));
+  }
+}
+
+// Stations that no edge crossed take their neighbours' value.
+void fill_gaps(std::array<float, kStations>& side) {
+  float last = 0;
+  for (float& v : side) {
+    if (v < 0) v = last;
+    last = v;
+  }
+}
+
+bool inside_range(int i, int begin, int end, int n) {  // begin -> end in contour order, ends excluded
+  const int to_i = (i - begin + n) % n, to_end = (end - begin + n) % n;
+  return to_i > 0 && to_i < to_end;
+}
+
+// Distance from `p` along unit `dir` to the farthest crossing with the contour that lies within `reach`; -1 if none.
+float ray_to_contour(std::span<const Vec2> contour, Vec2 p, Vec2 dir, float reach) {
+  float best = -1;
+  const std::size_t n = contour.size();
+  float side_before = cross(dir, contour[n - 1] - p);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float side = cross(dir, contour[i] - p);
+    if ((side < 0) != (side_before < 0)) {
+      const Vec2 a = contour[i == 0 ? n - 1 : i - 1], b = contour[i];
+      const Vec2 hit = lerp(a, b, side_before / (side_before - side));
+      const float along = dot(hit - p, dir);
+      if (along >= 0 && along <= reach && (best < 0 || along < best)) best = along;
+    }
+    side_before = side;
+  }
+  return best;
+}
+
+}  // namespace
+
+Axis medial_axis(const EllipticFourier& fourier, float t_head, float t_tail, std::span<Vec2> smooth) {
+  Vec2 middle[kStations];
+  const float right = fraction_between(t_head, t_tail), left = 1.0f - right;
+  for (int i = 0; i < kStations; ++i) {
+    const float u = static_cast<float>(i) / kLast;
+    const Vec2 p = fourier.at(t_head + right * u), q = fourier.at(t_head - left * u);
+    smooth[static_cast<std::size_t>(i)] = p;
+    smooth[static_cast<std::size_t>(2 * kStations - 1 - i)] = q;
+    middle[i] = lerp(p, q, 0.5f);  // Eq 1
+  }
+  return resampled(middle);
+}
+
+Axis resampled(std::span<const Vec2> polyline) {
+  Axis axis;
+  const std::size_t n = polyline.size();
+  for (std::size_t i = 0; i + 1 < n; ++i) axis.length += length(polyline[i + 1] - polyline[i]);
+  std::size_t segment = 0;
+  float walked = 0, here = n > 1 ? length(polyline[1] - polyline[0]) : 0.0f;
+  for (int j = 0; j < kStations; ++j) {
+    const float want = axis.length * static_cast<float>(j) / kLast;
+    while (segment + 2 < n && walked + here < want) {
+      walked += here;
+      ++segment;
+      here = length(polyline[segment + 1] - polyline[segment]);
+    }
+    const float u = here > 0 ? det::clamp((want - walked) / here, 0.0f, 1.0f) : 0.0f;
+    axis.points[static_cast<std::size_t>(j)] = lerp(polyline[segment], polyline[segment + 1], u);
+  }
+  return axis;
+}
+
+Vec2 point_at(const Axis& axis, float s) {
+  const float at = det::clamp(s, 0.0f, 1.0f) * kLast;
+  const int j = min_int(static_cast<int>(at), kLast - 1);
+  return lerp(axis.points[static_cast<std::size_t>(j)], axis.points[static_cast<std::size_t>(j) + 1], at - static_cast<float>(j));
+}
+
+Vec2 tangent_at(const Axis& axis, float s) {
+  const int j = clamp_int(static_cast<int>(s * kLast), 0, kLast - 1);
+  const int a = max_int(j - 1, 0), b = min_int(j + 2, kLast);
+  return normalised(axis.points[static_cast<std::size_t>(b)] - axis.points[static_cast<std::size_t>(a)]);
+}
+
+void project_outline(std::span<const Vec2> contour, Stretch right, const Axis& axis, std::span<AlongAxis> out) {
+  const int n = static_cast<int>(contour.size());
+  int segment = 0;
+  for (int k = 0; k <= right.count; ++k) {
+    const std::size_t i = static_cast<std::size_t>((right.begin + k) % n);
+    out[i] = nearest_from(axis, contour[i], segment);
+  }
+  segment = 0;  // the left side, from the head backwards
+  for (int k = 1; k < n - right.count; ++k) {
+    const std::size_t i = static_cast<std::size_t>((right.begin - k + n) % n);
+    out[i] = nearest_from(axis, contour[i], segment);
+  }
+}
+
+WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right, const FinCut& left_cut, const FinCut& right_cut) {
+  WidthProfile widths;
+  const int n = static_cast<int>(along.size());
+  for (int side = 0; side < 2; ++side) {
+    auto& profile = widths.side[side];
+    for (float& v : profile) v = -1;
+    const bool is_right = side == 1;
+    const FinCut& cut = is_right ? right_cut : left_cut;
+    const int begin = is_right ? right.begin : (right.begin + right.count) % n;
+    const int count = is_right ? right.count : n - right.count;
+    const int cut_begin = is_right ? cut.top : cut.bottom, cut_end = is_right ? cut.bottom : cut.top;
+    int from = begin;
+    for (int k = 1; k <= count; ++k) {
+      const int i = (begin + k) % n;
+      if (cut.active && inside_range(i, cut_begin, cut_end, n)) continue;
+      add_edge(profile, along[static_cast<std::size_t>(from)], along[static_cast<std::size_t>(i)], is_right ? 1.0f : -1.0f);
+      from = i;
+    }
+    fill_gaps(profile);
+  }
+  return widths;
+}
+
+Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px) {
+  std::array<float, kStations> shift{}, smooth{};
+  for (std::size_t j = 0; j < kStations; ++j) {
+    shift[j] = 0.5f * (widths.side[1][j] - widths.side[0][j]);
+    if (limit_px > 0) shift[j] = det::clamp(shift[j], -limit_px, limit_px);
+  }
+  // The caps tell nothing: their half-widths end with the outline. 1-2-1 against the outline's pixel steps.
+  for (int j = 0; j < kStations; ++j) {
+    const float a = shift[static_cast<std::size_t>(clamp_int(j - 1, 2, kLast - 2))];
+    const float b = shift[static_cast<std::size_t>(clamp_int(j, 2, kLast - 2))];
+    const float c = shift[static_cast<std::size_t>(clamp_int(j + 1, 2, kLast - 2))];
+    smooth[static_cast<std::size_t>(j)] = 0.25f * a + 0.5f * b + 0.25f * c;
+  }
+  Vec2 moved[kStations];
+  for (int j = 0; j < kStations; ++j) {
+    const Vec2 forward = tangent_at(axis, static_cast<float>(j) / kLast) * -1.0f;  // towards the head
+    moved[j] = axis.points[static_cast<std::size_t>(j)] + right_of(forward) * smooth[static_cast<std::size_t>(j)];
+  }
+  return resampled(moved);
+}
+
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, float trim) {
+  Vec2 points[kStations + 2];
+  const float reach = 0.25f * axis.length;
+  int count = 0;
+  const int first = max_int(static_cast<int>(trim * kLast), 1), last = kLast - first;
+  const auto end_point = [&](int at, int inner) {
+    const Vec2 p = axis.points[static_cast<std::size_t>(at)];
+    const Vec2 dir = normalised(p - axis.points[static_cast<std::size_t>(inner)]);
+    const float along = ray_to_contour(contour, p, dir, reach);
+    return along >= 0 ? p + dir * along : axis.points[static_cast<std::size_t>(at == first ? 0 : kLast)];
+  };
+  points[count++] = end_point(first, first + 4);
+  for (int j = first; j <= last; ++j) points[count++] = axis.points[static_cast<std::size_t>(j)];
+  points[count++] = end_point(last, last - 4);
+  return resampled({points, static_cast<std::size_t>(count)});
+}
+
+}  // namespace nt

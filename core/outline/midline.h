@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The medial axis of a fish outline ([F] section 4.3): contour, head, tail -> polyline from head to tail.
+//
+// Two steps. (1) The paper's: both sides of the elliptic Fourier reconstruction, resampled by arc length to the same count
+// (the limit of Eq 1's floor index), averaged. (2) Ours: the original outline is expressed along that axis as half-widths
+// to its left and right, fins cut off at their junctions, and every axis point moves to the middle between them; the ends
+// run on to where the axis leaves the outline. Step 2 exists because five harmonics cannot follow a thin bent tail and a
+// one-sided fin pulls the smooth outline: measured on the tank it lowers the rms error (docs/METHOD.md gives figures).
+// Frame of reference: the contour's. Cost: O(contour points), three passes.
+#pragma once
+#include <array>
+#include <span>
+
+#include "core/base/vec2.h"
+#include "core/outline/fourier.h"
+
+namespace nt {
+
+inline constexpr int kStations = 65;  // axis points from head (0) to tail (64)
+
+struct Axis {
+  std::array<Vec2, kStations> points{};
+  float length = 0;
+};
+
+// A point's place along the axis: s in [0, 1] from head to tail, d to the fish's right in pixels.
+struct AlongAxis {
+  float s = 0;
+  float d = 0;
+};
+
+// Half-widths at the stations, pixels; both positive. Index 0 = left of the fish, 1 = right.
+struct WidthProfile {
+  std::array<float, kStations> side[2];
+};
+
+// A stretch of a contour, from index `begin` onwards `count` points, wrapping around.
+struct Stretch {
+  int begin = 0;
+  int count = 0;
+};
+
+// Step 1. t_head and t_tail are arc-length fractions; the contour runs clockwise on the screen, so head -> tail in
+// contour order is the fish's right side. `smooth` (2 * kStations points) receives the reconstruction, right side then
+// left side backwards, as a closed contour.
+Axis medial_axis(const EllipticFourier& fourier, float t_head, float t_tail, std::span<Vec2> smooth);
+
+// Uniform stations along a polyline, and its length.
+Axis resampled(std::span<const Vec2> polyline);
+Vec2 point_at(const Axis& axis, float s);
+Vec2 tangent_at(const Axis& axis, float s);  // unit, from head to tail
+
+// (s, d) of the points of a contour, walking along both in step. `right` = the stretch from head to tail in contour order;
+// the rest is the left side.
+void project_outline(std::span<const Vec2> contour, Stretch right, const Axis& axis, std::span<AlongAxis> out);
+
+// Half-widths from projected outline; between the indices of a cut (a fin's junctions) the chord is taken.
+struct FinCut {
+  bool active = false;
+  int top = 0, bottom = 0;  // contour indices of the junctions, in contour order from head to tail on the right side,
+                            // from tail to head (bottom first) on the left
+};
+WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right, const FinCut& left_cut, const FinCut& right_cut);
+
+// Moves every station to the middle between its half-widths; |correction| is held under `limit_px` (0: no limit).
+Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px);
+
+// Lets both ends run straight on (or back) to the contour. `trim` of the length at either end is taken as unreliable.
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, float trim);
+
+}  // namespace nt

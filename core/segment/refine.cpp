@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segment/refine.h"
+
+#include <array>
+#include <bit>
+
+#include "core/base/det_math.h"
+#include "core/segment/clean.h"
+#include "core/segment/difference.h"
+#include "core/segment/shadow.h"
+
+namespace nt {
+namespace {
+
+// Two classes count as two when this share of the variance lies between them; a uniform distribution has 0.75, a fish
+// without a shadow in the tank 0.55 to 0.7.
+constexpr float kSeparate = 0.78f;
+// A shadow keeps the ground's texture: the slope of luma on background equals their ratio. A fin hides part of it.
+constexpr float kSameTexture = 0.2f;
+
+LumaView part_of(LumaView whole, const Box& box) {
+  return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
+}
+
+void set_range(const BitMask& mask, int y, int x0, int x1) {
+  uint64_t* row = mask.row(y);
+  for (int x = x0; x < x1;) {
+    const int end = min_int((x | 63) + 1, x1);
+    const uint64_t up_to = (end & 63) == 0 ? ~uint64_t{0} : (uint64_t{1} << (end & 63)) - 1;
+    row[x >> 6] |= up_to & (~uint64_t{0} << (x & 63));
+    x = end;
+  }
+}
+
+bool any_in_range(const BitMask& mask, int y, int x0, int x1) {
+  const uint64_t* row = mask.row(y);
+  for (int x = x0; x < x1;) {
+    const int end = min_int((x | 63) + 1, x1);
+    const uint64_t up_to = (end & 63) == 0 ? ~uint64_t{0} : (uint64_t{1} << (end & 63)) - 1;
+    if ((row[x >> 6] & up_to & (~uint64_t{0} << (x & 63))) != 0) return true;
+    x = end;
+  }
+  return false;
+}
+
+template <class F>
+void combine(const BitMask& out, F&& f) {
+  for (int i = 0; i < out.words_per_row * out.height; ++i) out.words[i] = f(i);
+}
+
+template <class F>
+void for_pixels(const BitMask& mask, F&& f) {
+  for (int y = 0; y < mask.height; ++y) {
+    for (int i = 0; i < mask.words_per_row; ++i) {
+      for (uint64_t word = mask.row(y)[i]; word != 0; word &= word - 1) f(64 * i + std::countr_zero(word), y);
+    }
+  }
+}
+
+int difference(LumaView luma, LumaView background, int x, int y) {
+  const int d = luma.row(y)[x] - background.row(y)[x];
+  return d < 0 ? -d : d;
+}
+
+// Slope of luma on background and the ratio of their means over a mask; false when the ground is too plain to tell.
+bool texture_kept(LumaView luma, LumaView background, const BitMask& mask) {
+  int64_t n = 0, sb = 0, si = 0, sbb = 0, sbi = 0;
+  for_pixels(mask, [&](int x, int y) {
+    const int64_t b = background.row(y)[x], i = luma.row(y)[x];
+    ++n, sb += b, si += i, sbb += b * b, sbi += b * i;
+  });
+  if (n < 32 || sb == 0) return false;
+  const double count = static_cast<double>(n);
+  const double variance = static_cast<double>(sbb) / count - static_cast<double>(sb) / count * (static_cast<double>(sb) / count);
+  const double covariance = static_cast<double>(sbi) / count - static_cast<double>(sb) / count * (static_cast<double>(si) / count);
+  const double ratio = static_cast<double>(si) / static_cast<double>(sb);
+  if (variance < 9.0 || ratio < 0.4 || ratio > 0.95) return false;
+  const double slope = covariance / variance;
+  return slope > ratio - kSameTexture && slope < ratio + kSameTexture;
+}
+
+}  // namespace
+
+Refine* Refine::create(Arena& arena, const Limits& limits) {
+  auto self = arena.take<Refine>(1);
+  const std::size_t words = static_cast<std::size_t>(words_for(limits.max_width)) * static_cast<std::size_t>(limits.max_height);
+  std::span<uint64_t> masks[6];
+  for (auto& m : masks) m = arena.take_raw<uint64_t>(words);
+  Blobs* blobs = Blobs::create(arena, limits);
+  if (self.empty() || blobs == nullptr) return nullptr;
+  for (int i = 0; i < 6; ++i) self[0].words_[i] = masks[i];
+  self[0].blobs_ = blobs;
+  return &self[0];
+}
+
+void Refine::paint_seeds(std::span<const Run> runs, int label, const Box& box, const BitMask& seeds) {
+  clear_mask(seeds);
+  for (const Run& run : runs) {
+    if (run.label == label) set_range(seeds, run.y - box.y0, run.x0 - box.x0, run.x1 - box.x0);
+  }
+}
+
+// out = the largest connected part of `candidates` among those that hold a seed. False when there is none.
+bool Refine::keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out) {
+  dropped_ |= !blobs_->find(candidates, 1);
+  clear_mask(out);
+  int best = -1, best_area = 0;
+  for (const Run& run : blobs_->runs()) {
+    if (run.label < 0) continue;
+    const int area = blobs_->blobs()[static_cast<std::size_t>(run.label)].area_px;
+    if (area > best_area && any_in_range(seeds, run.y, run.x0, run.x1)) best = run.label, best_area = area;
+  }
+  for (const Run& run : blobs_->runs()) {
+    if (best >= 0 && run.label == best) set_range(out, run.y, run.x0, run.x1);
+  }
+  return best >= 0;
+}
+
+// Pixels of `fish` that are shadow. A shadow darkens the ground a little and keeps its texture; the fish is the class
+// farther from the background.
+bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish, const BitMask& seeds,
+                         const BitMask& bright, const BitMask& dark, const BitMask& shadow) const {
+  std::array<int, 256> histogram{};
+  for_pixels(fish, [&](int x, int y) { ++histogram[static_cast<std::size_t>(difference(luma, background, x, y))]; });
+  const OtsuSplit split = otsu(histogram);
+  int64_t bright_seeds = 0, dark_seeds = 0;
+  for_pixels(seeds, [&](int x, int y) {
+    if (difference(luma, background, x, y) <= split.threshold) return;
+    bright_seeds += bright.at(x, y);
+    dark_seeds += dark.at(x, y);
+  });
+  clear_mask(shadow);
+  int found = 0;
+  for_pixels(fish, [&](int x, int y) {
+    if (dark.at(x, y) && difference(luma, background, x, y) <= split.threshold) shadow.set(x, y), ++found;
+  });
+  if (found == 0) return false;
+  if (bright_seeds > 2 * dark_seeds) return true;  // a bright fish: what is a little darker than the ground is not it
+  return split.eta > kSeparate && texture_kept(luma, background, shadow);
+}
+
+FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, const Blob& blob, int label,
+                      std::span<const Run> runs, bool remove_shadow) {
+  dropped_ = false;
+  // Room for what the opening and the strong threshold lost: a tail fin, a fin that just opened.
+  const int margin = max_int(8, max_int(blob.box.width(), blob.box.height()) / 4);
+  FishMask result;
+  result.box = grown(blob.box, margin, luma.width, luma.height);
+  const int w = result.box.width(), h = result.box.height(), words = words_for(w);
+  const auto mask = [&](int i) { return BitMask{words_[i].data(), w, h, words}; };
+  const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4), shadow = mask(5);
+  const LumaView here = part_of(luma, result.box), ground = part_of(background, result.box);
+
+  paint_seeds(runs, label, result.box, seeds);
+  mask_of_difference(here, ground, weak_threshold, +1, bright);
+  mask_of_difference(here, ground, weak_threshold, -1, dark);
+  combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
+  keep_connected(candidates, seeds, fish);
+  if (remove_shadow && find_shadow(here, ground, fish, seeds, bright, dark, shadow)) {
+    combine(seeds, [&](int i) { return seeds.words[i] & ~shadow.words[i]; });
+    combine(candidates, [&](int i) { return candidates.words[i] & ~shadow.words[i]; });
+    keep_connected(candidates, seeds, fish);
+    result.shadow_removed = true;
+  }
+  result.mask = fish;
+  for_pixels(fish, [&](int x, int y) {
+    const int fx = x + result.box.x0, fy = y + result.box.y0;
+    result.touches_edge |= fx == 0 || fy == 0 || fx == luma.width - 1 || fy == luma.height - 1;
+  });
+  return result;
+}
+
+}  // namespace nt

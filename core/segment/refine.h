@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The target's blob -> the whole fish, at full detail inside its own neighbourhood.
+//
+// The opened mask finds the fish but loses thin tails and half-transparent fins. So inside the blob's grown box every
+// pixel that differs from the background by more than noise (the weak mask) and hangs together with the blob is taken back
+// (hysteresis), and what Otsu and the colour of the difference call shadow is taken away.
+// luma, background estimate, blob and its runs -> mask in box coordinates.
+// Differs from [F] section 4, which applies Otsu to the box's luma: here it works on |luma - background| and only
+// where the two classes separate and the far class has the fish's own sign or the near one keeps the ground's texture.
+// Cost: O(box), about 0.05 ms for a 300 x 200 box.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/base/image_view.h"
+#include "core/segment/blobs.h"
+
+namespace nt {
+
+struct FishMask {
+  Box box;           // in the frame
+  BitMask mask;      // box coordinates
+  bool touches_edge = false;   // the fish reaches the frame's edge
+  bool shadow_removed = false;
+};
+
+class Refine {
+ public:
+  static Refine* create(Arena& arena, const Limits& limits);
+  // `blob` and `runs` are of the opened mask; `label` is the blob's. `remove_shadow`: the scene can have shadows.
+  FishMask fish(LumaView luma, LumaView background, int weak_threshold, const Blob& blob, int label,
+                std::span<const Run> runs, bool remove_shadow);
+  bool dropped() const { return dropped_; }  // runs or blobs did not fit
+
+ private:
+  void paint_seeds(std::span<const Run> runs, int label, const Box& box, const BitMask& seeds);
+  bool keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out);
+  bool find_shadow(LumaView luma, LumaView background, const BitMask& fish, const BitMask& seeds, const BitMask& bright,
+                   const BitMask& dark, const BitMask& shadow) const;
+
+  std::span<uint64_t> words_[6];
+  Blobs* blobs_ = nullptr;  // of the weak mask in the box
+  bool dropped_ = false;
+};
+
+}  // namespace nt

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segment/still.h"
+
+#include <cstring>
+
+#include "core/segment/difference.h"
+
+namespace nt {
+namespace {
+
+uint8_t median_of(uint8_t* values, int count) {
+  for (int i = 1; i < count; ++i) {  // insertion sort: at most 20 values, off the frame path
+    const uint8_t v = values[i];
+    int j = i;
+    for (; j > 0 && values[j - 1] > v; --j) values[j] = values[j - 1];
+    values[j] = v;
+  }
+  return values[count / 2];
+}
+
+}  // namespace
+
+Still* Still::create(Arena& arena, const BackgroundSettings& settings, int width, int height) {
+  const std::size_t stride = align_up(static_cast<std::size_t>(width));
+  const std::size_t plane = stride * static_cast<std::size_t>(height);
+  auto self = arena.take<Still>(1);
+  auto learned = arena.take_raw<uint8_t>(plane * kLearnFrames);
+  auto background = arena.take_raw<uint8_t>(plane);
+  if (self.empty() || background.empty()) return nullptr;
+  Still& still = self[0];
+  still.settings_ = settings;
+  still.width_ = width, still.height_ = height, still.stride_ = static_cast<std::ptrdiff_t>(stride);
+  still.learned_ = learned;
+  still.plane_ = background;
+  return &still;
+}
+
+void Still::learn(LumaView luma) {
+  if (learned_count_ >= kLearnFrames || luma.width != width_ || luma.height != height_) return;
+  noise_.add(luma);
+  uint8_t* to = learned_.data() + learned_count_ * stride_ * height_;
+  for (int y = 0; y < height_; ++y) std::memcpy(to + y * stride_, luma.row(y), static_cast<std::size_t>(width_));
+  ++learned_count_;
+}
+
+void Still::restart() {
+  started_ = false;
+  learned_count_ = 0;
+  noise_.restart();
+}
+
+int Still::weak_threshold() const { return clamp_int(static_cast<int>(2.0f + 3.2f * noise_.sigma()), 6, 60); }
+
+void Still::take_median() {
+  uint8_t values[kLearnFrames];
+  const std::ptrdiff_t plane = stride_ * height_;
+  for (std::ptrdiff_t i = 0; i < plane; ++i) {
+    for (int k = 0; k < learned_count_; ++k) values[k] = learned_[static_cast<std::size_t>(k * plane + i)];
+    plane_[static_cast<std::size_t>(i)] = median_of(values, learned_count_);
+  }
+}
+
+bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) {
+  bool means_something = true;
+  if (!started_) {
+    means_something = learned_count_ > 0;
+    if (learned_count_ == 0) learn(luma);
+    take_median();
+    started_ = true;
+    noise_.restart();  // the learned pictures may lie seconds apart; consecutive frames give the noise
+  }
+  noise_.add(luma);
+  const int radius = settings_.radius > 0 ? settings_.radius
+                                          : clamp_int(static_cast<int>(12.5f + 3.0f * noise_.sigma()), 12, 48);
+  mask_of_difference(luma, estimate(), radius, 0, foreground);
+  follow_background(luma, foreground, keep, {plane_.data(), width_, height_, stride_});
+  return means_something;
+}
+
+}  // namespace nt

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segment/target.h"
+
+#include "core/base/det_math.h"
+
+namespace nt {
+namespace {
+
+float length_of(const Blob& blob) { return 4.0f * blob.major_px + 1.0f; }
+
+bool inside(const Box& box, Vec2 p, float margin) {
+  return p.x >= static_cast<float>(box.x0) - margin && p.x < static_cast<float>(box.x1) + margin &&
+         p.y >= static_cast<float>(box.y0) - margin && p.y < static_cast<float>(box.y1) + margin;
+}
+
+}  // namespace
+
+float fish_likeness(const Blob& blob) {
+  const float elongation = blob.major_px / det::max(blob.minor_px, 0.3f);
+  // An ellipse of the same moments has area 4 pi sigma_1 sigma_2; a ring or a branching crack has much less.
+  const float ellipse = 4.0f * det::kPi * blob.major_px * det::max(blob.minor_px, 0.3f);
+  const float filled = static_cast<float>(blob.area_px) / det::max(ellipse, 1.0f);
+  const float long_enough = det::clamp((elongation - 1.0f) / 1.5f, 0.0f, 1.0f);
+  const float compact = det::clamp((filled - 0.4f) / 0.4f, 0.0f, 1.0f);
+  return (0.05f + 0.95f * long_enough * compact) * (blob.touches_edge ? 0.1f : 1.0f);
+}
+
+// Nearest-centroid matching of the blobs to what was seen before, for the selection only.
+void Target::follow_candidates(std::span<const Blob> blobs) {
+  for (Candidate& c : candidates_) c.blob = -1;
+  for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
+    const Blob& blob = blobs[static_cast<std::size_t>(i)];
+    int nearest = -1;
+    float best = length_of(blob);
+    for (int k = 0; k < candidate_count_; ++k) {
+      const Candidate& c = candidates_[static_cast<std::size_t>(k)];
+      const float d = length(c.centroid - blob.centroid);
+      if (c.blob < 0 && d < best) best = d, nearest = k;
+    }
+    if (nearest < 0 && candidate_count_ < kCandidates) {
+      nearest = candidate_count_++;
+      candidates_[static_cast<std::size_t>(nearest)] = {};
+      candidates_[static_cast<std::size_t>(nearest)].first = blob.centroid;
+    }
+    if (nearest < 0) continue;
+    Candidate& c = candidates_[static_cast<std::size_t>(nearest)];
+    c.blob = i, c.centroid = blob.centroid, c.missed = 0, ++c.frames;
+    c.travelled = det::max(c.travelled, length(c.centroid - c.first) / length_of(blob));
+  }
+  for (int k = 0; k < candidate_count_;) {
+    Candidate& c = candidates_[static_cast<std::size_t>(k)];
+    if (c.blob < 0 && ++c.missed > 5) c = candidates_[static_cast<std::size_t>(--candidate_count_)];
+    else ++k;
+  }
+}
+
+float Target::score(const Candidate& candidate, const Blob& blob) const {
+  const float travel = det::min(candidate.travelled, 1.0f);
+  return det::sqrt(static_cast<float>(blob.area_px)) * fish_likeness(blob) * (1.0f + 4.0f * travel);
+}
+
+int Target::best_candidate(std::span<const Blob> blobs) const {
+  int best = -1;
+  float best_score = 0;
+  for (int k = 0; k < candidate_count_; ++k) {
+    const Candidate& c = candidates_[static_cast<std::size_t>(k)];
+    if (c.blob < 0) continue;
+    const float s = score(c, blobs[static_cast<std::size_t>(c.blob)]);
+    if (s > best_score) best_score = s, best = c.blob;
+  }
+  return best;
+}
+
+// The blob that continues the track: near the predicted place, of about the same area.
+int Target::match(std::span<const Blob> blobs) const {
+  int best = -1;
+  float best_cost = 1.6f;
+  const float patience = 1.0f + 0.2f * static_cast<float>(min_int(lost_frames_, 15));
+  const Vec2 predicted = centroid_ + velocity_ * static_cast<float>(min_int(lost_frames_ + 1, 5));
+  for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
+    const Blob& blob = blobs[static_cast<std::size_t>(i)];
+    const float d = length(blob.centroid - predicted) / length_;
+    const float ratio = static_cast<float>(blob.area_px) / det::max(area_, 1.0f);
+    if (d > 0.6f * patience || ratio < 0.15f) continue;
+    const float cost = d / patience + 0.35f * det::abs(det::log(ratio));
+    if (cost < best_cost) best_cost = cost, best = i;
+  }
+  return best;
+}
+
+int Target::requested(std::span<const Blob> blobs) {
+  const Request request = request_;
+  if (request == Request::none || blobs.empty()) return -1;
+  request_ = Request::none;
+  int best = -1;
+  if (request == Request::at) {
+    float best_d = 1e9f;
+    for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
+      const Blob& blob = blobs[static_cast<std::size_t>(i)];
+      const float d = length(blob.centroid - point_) - (inside(blob.box, point_, 4.0f) ? 1e5f : 0.0f);
+      if (d < best_d) best_d = d, best = i;
+    }
+    return best;
+  }
+  // next: the blob after the present one in reading order of their centres, round and round.
+  const auto after = [](Vec2 a, Vec2 b) { return a.x > b.x || (a.x == b.x && a.y > b.y); };
+  int first = 0;
+  for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
+    const Vec2 c = blobs[static_cast<std::size_t>(i)].centroid;
+    if (after(blobs[static_cast<std::size_t>(first)].centroid, c)) first = i;
+    if (!after(c, centroid_ + Vec2{0.5f * length_, 0})) continue;
+    if (best < 0 || after(blobs[static_cast<std::size_t>(best)].centroid, c)) best = i;
+  }
+  return best >= 0 ? best : first;
+}
+
+void Target::take(const Blob& blob) {
+  has_target_ = changed_ = true;
+  lost_frames_ = merged_frames_ = 0;
+  centroid_ = blob.centroid;
+  velocity_ = {};
+  area_ = static_cast<float>(blob.area_px);
+  length_ = length_of(blob);
+}
+
+TargetChoice Target::accept(std::span<const Blob> blobs, int index) {
+  const Blob& blob = blobs[static_cast<std::size_t>(index)];
+  const float area = static_cast<float>(blob.area_px);
+  if (!blob.touches_edge && area > 1.8f * area_ && ++merged_frames_ <= lost_after_) {
+    centroid_ = centroid_ + velocity_;  // swim on through the crossing
+    return {index, PoseStatus::occluded};
+  }
+  merged_frames_ = 0;
+  const Vec2 step = (blob.centroid - centroid_) * (1.0f / static_cast<float>(lost_frames_ + 1));
+  velocity_ = lerp(velocity_, step, 0.4f);
+  centroid_ = blob.centroid;
+  lost_frames_ = 0;
+  if (blob.touches_edge) {
+    area_ = det::max(area, 0.7f * area_);
+    return {index, PoseStatus::partial};
+  }
+  area_ += (area - area_) * 0.1f;
+  length_ += (length_of(blob) - length_) * 0.1f;
+  return {index, PoseStatus::ok};
+}
+
+TargetChoice Target::update(std::span<const Blob> blobs) {
+  changed_ = false;
+  if (!chosen_by_user_) follow_candidates(blobs);
+  if (const int index = requested(blobs); index >= 0) {
+    chosen_by_user_ = true;
+    take(blobs[static_cast<std::size_t>(index)]);
+    return accept(blobs, index);
+  }
+  ++frames_since_start_;
+  int index = has_target_ ? match(blobs) : -1;
+  const bool may_revise = !chosen_by_user_ && frames_since_start_ <= kAutoFrames;
+  if (!has_target_ || may_revise) {
+    const int best = best_candidate(blobs);
+    if (best >= 0 && best != index) {
+      float mine = 0, other = 0;
+      for (int k = 0; k < candidate_count_; ++k) {
+        const Candidate& c = candidates_[static_cast<std::size_t>(k)];
+        if (c.blob >= 0 && c.blob == index) mine = score(c, blobs[static_cast<std::size_t>(c.blob)]);
+        if (c.blob == best) other = score(c, blobs[static_cast<std::size_t>(c.blob)]);
+      }
+      const bool plausible = fish_likeness(blobs[static_cast<std::size_t>(best)]) > 0.2f;
+      if (plausible && (!has_target_ || other > 1.5f * mine)) {
+        if (!has_target_) frames_since_start_ = 0;
+        take(blobs[static_cast<std::size_t>(best)]);
+        index = best;
+      }
+    }
+  }
+  if (index >= 0) return accept(blobs, index);
+  if (!has_target_) return {-1, PoseStatus::absent};
+  if (++lost_frames_ > lost_after_) {  // start anew with whatever swims in
+    has_target_ = false, chosen_by_user_ = false;
+    candidate_count_ = 0, frames_since_start_ = 0;
+  }
+  return {-1, PoseStatus::lost};
+}
+
+}  // namespace nt

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/segment/vibe.h"
+
+#include <cstring>
+
+#include "core/segment/difference.h"
+#include "core/segment/lanes.h"
+
+namespace nt {
+namespace {
+
+constexpr std::size_t kTable = 16384;  // random bytes beyond one row's length, so that rows start at different places
+
+// Bits of the pixels with fewer than kMinMatches samples within `radius`. Stops reading planes once every lane has its
+// matches: background pixels mostly need two.
+uint64_t classify_segment(const uint8_t* luma, const uint8_t* samples, std::ptrdiff_t plane_stride, int radius) {
+  const ByteLanes d;
+  const auto limit = hn::Set(d, static_cast<uint8_t>(radius));
+  const auto enough = hn::Set(d, static_cast<uint8_t>(Vibe::kMinMatches));
+  uint64_t word = 0;
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
+    const auto v = hn::LoadU(d, luma + i);
+    auto matches = hn::Zero(d);
+    auto lacking = hn::Lt(matches, enough);
+    for (int k = 0; k < Vibe::kSamples; ++k) {
+      const auto diff = abs_diff(v, hn::LoadU(d, samples + k * plane_stride + i));
+      // A true comparison is 255 = -1, so subtracting it counts.
+      matches = hn::Sub(matches, hn::VecFromMask(d, hn::Eq(hn::Min(diff, limit), diff)));
+      lacking = hn::Lt(matches, enough);
+      if (k + 1 >= Vibe::kMinMatches && hn::AllFalse(d, lacking)) break;
+    }
+    hn::StoreMaskBits(d, lacking, reinterpret_cast<uint8_t*>(&word) + i / 8);
+  }
+  return word;
+}
+
+// to[i] = luma[i] where chosen[i] is 255 and frozen[i] (if any) is 0.
+void refresh_segment(const uint8_t* luma, const uint8_t* chosen, const uint8_t* frozen, uint8_t* to) {
+  const ByteLanes d;
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
+    auto pick = hn::LoadU(d, chosen + i);
+    if (frozen != nullptr) pick = hn::AndNot(hn::LoadU(d, frozen + i), pick);
+    const auto old = hn::LoadU(d, to + i);
+    const auto next = hn::Or(hn::And(pick, hn::LoadU(d, luma + i)), hn::AndNot(pick, old));
+    hn::StoreU(next, d, to + i);
+  }
+}
+
+}  // namespace
+
+Vibe* Vibe::create(Arena& arena, const BackgroundSettings& settings, int width, int height, uint64_t seed) {
+  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(align_up(static_cast<std::size_t>(width)));
+  const std::size_t plane = static_cast<std::size_t>(stride) * static_cast<std::size_t>(height);
+  auto self = arena.take<Vibe>(1);
+  // One guard line at either end: a neighbour update reaches one pixel over a segment's edge.
+  auto samples = arena.take_raw<uint8_t>(plane * kSamples + 2 * kAlignment);
+  auto estimate = arena.take_raw<uint8_t>(plane);
+  auto chosen = arena.take_raw<uint8_t>(kTable + static_cast<std::size_t>(stride));
+  if (self.empty() || chosen.empty()) return nullptr;
+  Vibe& vibe = self[0];
+  vibe.settings_ = settings;
+  vibe.width_ = width, vibe.height_ = height, vibe.stride_ = stride;
+  vibe.samples_ = samples.subspan(kAlignment, plane * kSamples);
+  vibe.plane_ = estimate;
+  vibe.chosen_ = chosen;
+  vibe.random_ = Random(seed);
+  for (uint8_t& c : chosen) c = vibe.random_.below(kSubsampling) == 0 ? 255 : 0;
+  return &vibe;
+}
+
+int Vibe::radius() const {
+  if (settings_.radius > 0) return settings_.radius;
+  // 20 at sigma 2.5, the paper's value; quieter clips can afford less, noisy ones need more.
+  return clamp_int(static_cast<int>(12.5f + 3.0f * noise_.sigma()), 12, 48);
+}
+
+int Vibe::weak_threshold() const { return clamp_int(static_cast<int>(2.0f + 3.2f * noise_.sigma()), 6, 60); }
+
+void Vibe::learn(LumaView luma) {
+  if (!started_) initialise(luma);
+}
+
+void Vibe::restart() {
+  started_ = false;
+  noise_.restart();
+}
+
+// The samples of a pixel are its own value and its neighbours' in the first frame (ViBe section III-B).
+void Vibe::initialise(LumaView luma) {
+  for (int y = 0; y < height_; ++y) {
+    std::memcpy(plane_.data() + y * stride_, luma.row(y), static_cast<std::size_t>(width_));
+    for (int k = 0; k < kSamples; ++k) {
+      const uint32_t r = random_.below(9);
+      const int dx = static_cast<int>(r % 3) - 1, dy = static_cast<int>(r / 3) - 1;
+      const uint8_t* from = luma.row(clamp_int(y + dy, 0, height_ - 1));
+      uint8_t* to = sample_row(k, y);
+      for (int x = 0; x < width_; ++x) to[x] = from[clamp_int(x + dx, 0, width_ - 1)];
+      std::memset(to + width_, from[width_ - 1], static_cast<std::size_t>(stride_ - width_));
+    }
+  }
+  started_ = true;
+}
+
+void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep) {
+  uint8_t tail[64], frozen[64];
+  const uint8_t* own_choice = chosen_.data() + random_.below(kTable);
+  const uint8_t* neighbour_choice = chosen_.data() + random_.below(kTable);
+  for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
+    const uint64_t still = foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
+    const uint64_t r = random_.next();
+    if (still == ~uint64_t{0}) return;
+    if (still != 0) bytes_of_bits(still, frozen);
+    const uint8_t* hold = still != 0 ? frozen : nullptr;
+    const int own = static_cast<int>((r & 0xffff) * kSamples >> 16);
+    const int other = static_cast<int>(((r >> 16) & 0xffff) * kSamples >> 16);
+    int dx = static_cast<int>(((r >> 32) & 0xff) * 3 >> 8) - 1;
+    const int dy = static_cast<int>(((r >> 40) & 0xff) * 3 >> 8) - 1;
+    if (x + dx < 0 || x + dx + 64 > stride_) dx = 0;
+    refresh_segment(at, own_choice + x, hold, sample_row(own, y) + x);
+    refresh_segment(at, neighbour_choice + x, hold, sample_row(other, clamp_int(y + dy, 0, height_ - 1)) + x + dx);
+  });
+}
+
+bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) {
+  noise_.add(luma);
+  if (!started_) {
+    initialise(luma);
+    for (int y = 0; y < height_; ++y) std::memset(foreground.row(y), 0, static_cast<std::size_t>(foreground.words_per_row) * 8);
+    return false;
+  }
+  uint8_t tail[64];
+  const int limit = radius();
+  const std::ptrdiff_t plane_stride = stride_ * height_;
+  for (int y = 0; y < height_; ++y) {
+    uint64_t* words = foreground.row(y);
+    const uint8_t* samples = sample_row(0, y);
+    for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
+      words[x >> 6] = classify_segment(at, samples + x, plane_stride, limit) & valid_bits(x, width_);
+    });
+    update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
+  }
+  follow_background(luma, foreground, keep, {plane_.data(), width_, height_, stride_});
+  return true;
+}
+
+}  // namespace nt

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where frames come from: a file, the simulated tank, later a real camera. One seam for all.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "core/frame/frame.h"
+#include "core/scene/scene.h"
+
+namespace nt {
+
+// Thrown by platform and app code; `what()` is the one line for the user: what, where, what to do.
+struct UserError : std::runtime_error {
+  int exit_code;  // 1 failed, 2 usage, 3 no camera
+  explicit UserError(const std::string& line, int code = 1) : std::runtime_error(line), exit_code(code) {}
+};
+
+struct CameraInfo {
+  std::string name;            // for messages: "file:clip.avi", "sim:scene=calm"
+  int source_width = 0;        // pixels of the source video
+  int source_height = 0;
+  int width = 0;               // pixels of the frames handed out (the working size)
+  int height = 0;
+  double fps = 0;              // nominal frames a second
+  int64_t frame_count = -1;    // -1 when not known
+};
+
+class Camera {
+ public:
+  virtual ~Camera() = default;
+  virtual const CameraInfo& info() const = 0;
+  // The next frame, or nothing at the end. Pixels stay valid until the next call. Throws UserError on a broken source.
+  virtual std::optional<Frame> next() = 0;
+  // The colour picture of the last frame, for showing (luma8 or rgb8, working size).
+  virtual Picture picture() const = 0;
+  // Starts again from the first frame; false where the source cannot (a live camera).
+  virtual bool rewind() { return false; }
+  // What went wrong without ending the clip (frames skipped, a file cut short), one line; empty when nothing did. Ask at the end.
+  virtual std::string warning() const { return {}; }
+};
+
+}  // namespace nt

@@ -5,6 +5,11 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   # The x86-64 baseline would make Highway scalar.
   add_compile_options(-march=${NEONTETRA_X86_LEVEL})
 endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # Highway 1.0.3 marks its NEON operations +crypto, and they are inlined only into code of the same target. Core calls
+  # none of the AES instructions, and compilers do not make them up, so a Raspberry Pi 4, which lacks them, is fine.
+  add_compile_options(-march=armv8-a+crypto)
+endif()
 if(NEONTETRA_DETERMINISTIC)
   add_compile_definitions(EIGEN_DONT_VECTORIZE)
 endif()

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
 constexpr float kStandsOut = 0.035f;         // of the length: less is a bulge of the body or outline noise
-constexpr float kHollow = 0.008f;            // of the length: depth of a junction below the line from tip to R
+constexpr float kHollow = 0.008f;            // of the length: depth of a junction
 
 // One side of the outline as a sequence from head to tail.
 struct SideWalk {
@@ -19,30 +19,41 @@ struct SideWalk {
 // Depth of `p` below the line from q to r, positive on the side of the fish's axis.
 float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
 
+constexpr float kTipRound = 0.06f;            // of the length: as near to the tip the outline turns round it
+
 struct Junction {
   int k = 0;
-  float depth = 0;
+  float hollow = 0;  // pixels
 };
 
 // The junction between the tip (position k_tip of the walk) and P at position k_end (0: head, last: tail).
-Junction find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward) {
+Junction find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward,
+                       float tip_round) {
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const int step = k_end > k_tip ? 1 : -1;
   const Vec2 q = point(k_tip), to_p = normalised(point(k_end) - q);
-  // The angle PQR is largest where its cosine is smallest. Points next to the tip give no direction.
+  // The angle PQR is largest where its cosine is smallest. Points on the round of the tip give no direction.
   int k_r = k_end;
   float smallest = 2;
-  for (int k = k_tip + 3 * step; (k_end - k) * step > 0; k += step) {
-    const float c = dot(to_p, normalised(point(k) - q));
+  for (int k = k_tip + step; (k_end - k) * step > 0; k += step) {
+    const Vec2 to_r = point(k) - q;
+    if (length_sq(to_r) < tip_round * tip_round) continue;
+    const float c = dot(to_p, normalised(to_r));
     if (c < smallest) smallest = c, k_r = k;
   }
-  // [F]: the point of QR farthest from the line QR. Farthest on the inner side: the hollow where fin and body meet.
+  // [F]: the point of QR farthest from the line QR, on its inner side. Where the fin's edge is straight that is noise, and
+  // R itself is the corner between fin and body.
   const float sign = step > 0 ? inward : -inward;
   Junction best{k_r, 0};
+  float deepest = 0.25f * tip_round;
   for (int k = k_tip; (k_r - k) * step >= 0; k += step) {
     const float depth = depth_below(q, point(k_r), point(k), sign);
-    if (depth > best.depth) best = {k, depth};
+    if (depth > deepest) deepest = depth, best.k = k;
   }
+  // A real junction is a hollow: it lies inside the line from the tip to the body a little farther on.
+  int k_on = best.k;
+  while (k_on != k_end && length_sq(point(k_on) - point(best.k)) < 4 * tip_round * tip_round) k_on += step;
+  best.hollow = depth_below(q, point(k_on), point(best.k), sign);
   return best;
 }
 
@@ -67,13 +78,14 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
   // Walking head -> tail, the axis lies to the right hand on the left side and to the left hand on the right side;
   // cross() is positive clockwise, so inward is +1 on the right side.
   const float inward = is_right ? 1.0f : -1.0f;
-  const Junction top = find_junction(contour, walk, k_tip, 0, inward);
-  const Junction bottom = find_junction(contour, walk, k_tip, walk.count, inward);
+  const float tip_round = kTipRound * axis_length;
+  const Junction top = find_junction(contour, walk, k_tip, 0, inward, tip_round);
+  const Junction bottom = find_junction(contour, walk, k_tip, walk.count, inward, tip_round);
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const float height = -depth_below(point(top.k), point(bottom.k), point(k_tip), inward);
   fin.tip = walk.at(k_tip), fin.top = walk.at(top.k), fin.bottom = walk.at(bottom.k);
   const float stands_out = height / axis_length;
-  const float hollow = det::max(top.depth, bottom.depth) / axis_length;
+  const float hollow = det::max(top.hollow, bottom.hollow) / axis_length;
   fin.seen = stands_out > kStandsOut && hollow > kHollow && top.k < k_tip && bottom.k > k_tip;
   if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
   return fin;

@@ -149,16 +149,16 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
 
   // Ours: centre the axis in the original outline, first carefully, then without the fins.
   const Stretch right{head, index_gap(head, tail, static_cast<int>(n))};
-  axis = extended_to_outline(axis, c, kTrim);
+  axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
   project_outline(c, right, axis, along);
   axis = centred(axis, width_profile(along.first(n), right, {}, {}), kFirstShift * axis.length);
-  axis = extended_to_outline(axis, c, kTrim);
+  axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
   FinCut left_cut, right_cut;
   for (int round = 0; round < 2; ++round) {
     project_outline(c, right, axis, along);
     measure_fins(c, right, pose, left_cut, right_cut);
     axis = centred(axis, width_profile(along.first(n), right, left_cut, right_cut), 0);
-    axis = extended_to_outline(axis, c, kTrim);
+    axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
   }
 
   sample_axis(moments.centroid, pose);

@@ -75,7 +75,18 @@ bool inside_range(int i, int begin, int end, int n) {  // begin -> end in contou
   return to_i > 0 && to_i < to_end;
 }
 
-// Distance from `p` along unit `dir` to the farthest crossing with the contour that lies within `reach`; -1 if none.
+// Place along the axis of any point, from all segments.
+float place_of(const Axis& axis, Vec2 p) {
+  float best = 1e30f, s = 0;
+  for (int j = 0; j < kLast; ++j) {
+    float dist_sq = 0;
+    const AlongAxis at = foot(axis, j, p, dist_sq);
+    if (dist_sq < best) best = dist_sq, s = at.s;
+  }
+  return det::clamp(s, 0.0f, 1.0f);
+}
+
+// Distance from `p` along unit `dir` to the nearest crossing with the contour that lies within `reach`; -1 if none.
 float ray_to_contour(std::span<const Vec2> contour, Vec2 p, Vec2 dir, float reach) {
   float best = -1;
   const std::size_t n = contour.size();
@@ -197,20 +208,22 @@ Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px) {
   return resampled(moved);
 }
 
-Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, float trim) {
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim) {
   Vec2 points[kStations + 2];
   const float reach = 0.25f * axis.length;
-  int count = 0;
-  const int first = max_int(static_cast<int>(trim * kLast), 1), last = kLast - first;
-  const auto end_point = [&](int at, int inner) {
+  // The axis may run on past a notched tail: the ends of the outline, not of the axis, say where it is still inside.
+  const int first = clamp_int(static_cast<int>((place_of(axis, head) + trim) * kLast) + 1, 1, kLast / 4);
+  const int last = clamp_int(static_cast<int>((place_of(axis, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1);
+  const auto end_point = [&](int at, int inner, Vec2 otherwise) {
     const Vec2 p = axis.points[static_cast<std::size_t>(at)];
     const Vec2 dir = normalised(p - axis.points[static_cast<std::size_t>(inner)]);
     const float along = ray_to_contour(contour, p, dir, reach);
-    return along >= 0 ? p + dir * along : axis.points[static_cast<std::size_t>(at == first ? 0 : kLast)];
+    return along >= 0 ? p + dir * along : otherwise;
   };
-  points[count++] = end_point(first, first + 4);
+  int count = 0;
+  points[count++] = end_point(first, first + 4, head);
   for (int j = first; j <= last; ++j) points[count++] = axis.points[static_cast<std::size_t>(j)];
-  points[count++] = end_point(last, last - 4);
+  points[count++] = end_point(last, last - 4, tail);
   return resampled({points, static_cast<std::size_t>(count)});
 }
 

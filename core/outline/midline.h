@@ -65,7 +65,8 @@ WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right, cons
 // Moves every station to the middle between its half-widths; |correction| is held under `limit_px` (0: no limit).
 Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px);
 
-// Lets both ends run straight on (or back) to the contour. `trim` of the length at either end is taken as unreliable.
-Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, float trim);
+// Lets both ends run straight on (or back) to the contour near its points `head` and `tail`. `trim` of the length before
+// them is taken as unreliable and redrawn.
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim);
 
 }  // namespace nt

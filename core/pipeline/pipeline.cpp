@@ -143,9 +143,9 @@ void CaptureImpl::protect_fish(const FishMask* fish) {
   clear_mask(keep);
   kept = fish != nullptr;
   if (!kept) return;
-  for (int y = 0; y < fish->mask.height; ++y) {
-    for (int i = 0; i < fish->mask.words_per_row; ++i) {
-      const uint64_t word = fish->mask.row(y)[i];
+  for (int y = 0; y < fish->around.height; ++y) {
+    for (int i = 0; i < fish->around.words_per_row; ++i) {
+      const uint64_t word = fish->around.row(y)[i];
       if (word == 0) continue;
       const int x = fish->box.x0 + 64 * i, shift = x & 63;
       uint64_t* row = keep.row(y + fish->box.y0);

@@ -49,6 +49,7 @@ class Backlit final : public Background {
   int polarity_ = -1;
   float smooth_share_ = 0;
   bool started_ = false;
+  uint32_t frames_ = 0;
 };
 
 }  // namespace nt

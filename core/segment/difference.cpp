@@ -20,17 +20,19 @@ uint64_t difference_word(const uint8_t* luma, const uint8_t* background, int thr
   return word;
 }
 
-void follow_segment(const uint8_t* luma, uint8_t* background, const uint8_t* frozen) {
+void follow_segment(const uint8_t* luma, uint8_t* background, const uint8_t* frozen, int limit) {
   const ByteLanes d;
   const auto one = hn::Set(d, uint8_t{1});
+  const auto most = hn::Set(d, static_cast<uint8_t>(limit));
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto v = hn::LoadU(d, luma + i);
     const auto b = hn::LoadU(d, background + i);
-    const auto up = hn::Min(hn::SaturatedSub(v, b), one);    // 1 where the picture is brighter
-    const auto down = hn::Min(hn::SaturatedSub(b, v), one);
-    const auto next = hn::Sub(hn::Add(b, up), down);
-    hn::StoreU(frozen == nullptr ? next : hn::IfThenElse(hn::Ne(hn::LoadU(d, frozen + i), hn::Zero(d)), b, next), d,
-               background + i);
+    const auto brighter = hn::SaturatedSub(v, b), darker = hn::SaturatedSub(b, v);
+    const auto step = hn::Sub(hn::Min(brighter, one), hn::Min(darker, one));
+    const auto diff = hn::Or(brighter, darker);
+    auto moves = hn::VecFromMask(d, hn::Eq(hn::Min(diff, most), diff));
+    if (frozen != nullptr) moves = hn::AndNot(hn::LoadU(d, frozen + i), moves);
+    hn::StoreU(hn::Add(b, hn::And(step, moves)), d, background + i);
   }
 }
 
@@ -53,7 +55,8 @@ void mask_of_difference(LumaView luma, LumaView background, int threshold, int s
   }
 }
 
-void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, ImageView<uint8_t> background) {
+void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, int limit,
+                       ImageView<uint8_t> background) {
   uint8_t tail[64], frozen[64];
   for (int y = 0; y < luma.height; ++y) {
     uint8_t* b = background.row(y);
@@ -62,7 +65,7 @@ void follow_background(LumaView luma, const BitMask& foreground, const BitMask* 
     for_segments(luma.row(y), luma.width, tail, [&](int x, const uint8_t* at) {
       const uint64_t still = fore[x >> 6] | (kept != nullptr ? kept[x >> 6] : 0);
       if (still != 0) bytes_of_bits(still, frozen);
-      follow_segment(at, b + x, still != 0 ? frozen : nullptr);
+      follow_segment(at, b + x, still != 0 ? frozen : nullptr, limit);
     });
   }
 }

@@ -14,7 +14,17 @@ namespace nt {
 // Foreground where sign * (luma - background) > threshold; sign +1 bright, -1 dark, 0 either.
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground);
 
-// One sigma-delta step outside `foreground` and `keep` (null: nothing is kept).
-void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, ImageView<uint8_t> background);
+// One sigma-delta step outside `foreground` and `keep` (null: nothing is kept), and only where luma and background differ
+// by at most `limit`.
+void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, int limit,
+                       ImageView<uint8_t> background);
+
+// Up to which difference frame number `frame` may move the background; negative: not at all in this frame. Quick while the
+// plane settles, then every 8th frame for noise and slow light, every 64th for anything: a shadow that passes in a second
+// must not darken the plane, or its place stands out as a ghost afterwards.
+inline int follow_limit(uint32_t frame, int weak_threshold) {
+  if ((frame & 63) == 63) return 255;
+  return frame < 32 || (frame & 7) == 0 ? weak_threshold : -1;
+}
 
 }  // namespace nt

@@ -84,11 +84,11 @@ bool texture_kept(LumaView luma, LumaView background, const BitMask& mask) {
 Refine* Refine::create(Arena& arena, const Limits& limits) {
   auto self = arena.take<Refine>(1);
   const std::size_t words = static_cast<std::size_t>(words_for(limits.max_width)) * static_cast<std::size_t>(limits.max_height);
-  std::span<uint64_t> masks[6];
+  std::span<uint64_t> masks[7];
   for (auto& m : masks) m = arena.take_raw<uint64_t>(words);
   Blobs* blobs = Blobs::create(arena, limits);
   if (self.empty() || blobs == nullptr) return nullptr;
-  for (int i = 0; i < 6; ++i) self[0].words_[i] = masks[i];
+  for (int i = 0; i < 7; ++i) self[0].words_[i] = masks[i];
   self[0].blobs_ = blobs;
   return &self[0];
 }
@@ -148,7 +148,8 @@ FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, co
   result.box = grown(blob.box, margin, luma.width, luma.height);
   const int w = result.box.width(), h = result.box.height(), words = words_for(w);
   const auto mask = [&](int i) { return BitMask{words_[i].data(), w, h, words}; };
-  const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4), shadow = mask(5);
+  const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4), shadow = mask(5),
+                around = mask(6);
   const LumaView here = part_of(luma, result.box), ground = part_of(background, result.box);
 
   paint_seeds(runs, label, result.box, seeds);
@@ -156,6 +157,7 @@ FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, co
   mask_of_difference(here, ground, weak_threshold, -1, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
   keep_connected(candidates, seeds, fish);
+  combine(around, [&](int i) { return fish.words[i]; });
   if (remove_shadow && find_shadow(here, ground, fish, seeds, bright, dark, shadow)) {
     combine(seeds, [&](int i) { return seeds.words[i] & ~shadow.words[i]; });
     combine(candidates, [&](int i) { return candidates.words[i] & ~shadow.words[i]; });
@@ -163,6 +165,7 @@ FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, co
     result.shadow_removed = true;
   }
   result.mask = fish;
+  result.around = around;
   for_pixels(fish, [&](int x, int y) {
     const int fx = x + result.box.x0, fy = y + result.box.y0;
     result.touches_edge |= fx == 0 || fy == 0 || fx == luma.width - 1 || fy == luma.height - 1;

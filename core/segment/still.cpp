@@ -73,7 +73,8 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
   const int radius = settings_.radius > 0 ? settings_.radius
                                           : clamp_int(static_cast<int>(12.5f + 3.0f * noise_.sigma()), 12, 48);
   mask_of_difference(luma, estimate(), radius, 0, foreground);
-  follow_background(luma, foreground, keep, {plane_.data(), width_, height_, stride_});
+  if (const int limit = follow_limit(frames_++, weak_threshold()); limit >= 0)
+    follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
   return means_something;
 }
 

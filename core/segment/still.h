@@ -36,6 +36,7 @@ class Still final : public Background {
   std::span<uint8_t> plane_;
   int learned_count_ = 0;
   bool started_ = false;
+  uint32_t frames_ = 0;
   NoiseMeter noise_;
 };
 

@@ -129,17 +129,18 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
     return false;
   }
   uint8_t tail[64];
-  const int limit = radius();
+  const int match = radius();
   const std::ptrdiff_t plane_stride = stride_ * height_;
   for (int y = 0; y < height_; ++y) {
     uint64_t* words = foreground.row(y);
     const uint8_t* samples = sample_row(0, y);
     for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
-      words[x >> 6] = classify_segment(at, samples + x, plane_stride, limit) & valid_bits(x, width_);
+      words[x >> 6] = classify_segment(at, samples + x, plane_stride, match) & valid_bits(x, width_);
     });
     update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
   }
-  follow_background(luma, foreground, keep, {plane_.data(), width_, height_, stride_});
+  if (const int limit = follow_limit(frames_++, weak_threshold()); limit >= 0)
+    follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
   return true;
 }
 

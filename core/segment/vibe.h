@@ -51,6 +51,7 @@ class Vibe final : public Background {
   Random random_;
   NoiseMeter noise_;
   bool started_ = false;
+  uint32_t frames_ = 0;
 };
 
 }  // namespace nt

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/character/character.h"
+
+#include <cstring>
+
+#include "core/base/arena.h"
+#include "core/base/hash.h"
+#include "core/character/character_format.h"
+
+namespace nt {
+namespace {
+
+Status bad(const char* message) { return {StatusCode::bad_data, message}; }
+
+// A section of `count` elements of T at `offset`, or an empty span when it does not lie inside the file.
+template <class T>
+std::span<const T> section(std::span<const std::byte> bytes, uint64_t offset, uint64_t count) {
+  const uint64_t size = bytes.size();
+  if (offset % kAlignment != 0 || offset < sizeof(CharacterHeader) || offset > size) return {};
+  if (count > (size - offset) / sizeof(T)) return {};
+  return {reinterpret_cast<const T*>(bytes.data() + offset), static_cast<std::size_t>(count)};
+}
+
+// NaN fails every comparison.
+bool in_range(float v, float limit) { return v >= -limit && v <= limit; }
+
+bool all_in_range(std::span<const Vec2> points) {
+  for (const Vec2 p : points) {
+    if (!in_range(p.x, kMaxCoordinate) || !in_range(p.y, kMaxCoordinate)) return false;
+  }
+  return true;
+}
+
+bool all_unit(std::span<const Vec2> points) {
+  for (const Vec2 p : points) {
+    if (!(p.x >= 0.0f && p.x <= 1.0f && p.y >= 0.0f && p.y <= 1.0f)) return false;
+  }
+  return true;
+}
+
+bool all_below(std::span<const uint32_t> indices, uint32_t limit) {
+  for (const uint32_t i : indices) {
+    if (i >= limit) return false;
+  }
+  return true;
+}
+
+Status check_preamble(std::span<const std::byte> bytes, CharacterHeader& h) {
+  if (bytes.size() < sizeof(CharacterHeader)) return bad("not a character file: too short; make it again with `neontetra character`");
+  if (reinterpret_cast<uintptr_t>(bytes.data()) % kAlignment != 0) {
+    return {StatusCode::bad_argument, "character bytes must start on a 64-byte line"};
+  }
+  std::memcpy(&h, bytes.data(), sizeof h);
+  if (std::memcmp(h.magic, kCharacterMagic, sizeof h.magic) != 0) {
+    return bad("not a character file; make one with `neontetra character`");
+  }
+  if (h.version > kCharacterVersion) {
+    return {StatusCode::unsupported, "character file is newer than this program; update neontetra"};
+  }
+  if (h.version != kCharacterVersion || h.header_bytes != sizeof(CharacterHeader)) {
+    return bad("character file is damaged (header); make it again with `neontetra character`");
+  }
+  if (h.file_bytes != bytes.size()) {
+    return bad("character file is cut short or has bytes added; make it again with `neontetra character`");
+  }
+  if (h.checksum != hash_bytes(bytes.data() + kChecksumFrom, bytes.size() - kChecksumFrom)) {
+    return bad("character file is damaged (checksum); make it again with `neontetra character`");
+  }
+  return {};
+}
+
+Status check_counts(const CharacterHeader& h, const Limits& limits) {
+  const bool axis = h.u_num >= 1 && h.u_num <= kMaxUpAxis && h.l_num >= 1 && h.l_num <= kMaxLowAxis;
+  const bool flags = (h.flags & ~(kCharacterLeftFin | kCharacterRightFin)) == 0;
+  const bool texture = h.texture_width >= 1 && h.texture_width <= kMaxTextureSide && h.texture_height >= 1 &&
+                       h.texture_height <= kMaxTextureSide;
+  if (!axis || !flags || !texture || h.vertex_count < 3 || h.triangle_count < 1) {
+    return bad("character file is damaged (counts); make it again with `neontetra character`");
+  }
+  if (h.vertex_count > static_cast<uint32_t>(limits.max_vertices)) {
+    return {StatusCode::unsupported, "character has too many vertices; raise max_vertices or make it with fewer"};
+  }
+  if (h.triangle_count > static_cast<uint32_t>(limits.max_triangles)) {
+    return {StatusCode::unsupported, "character has too many triangles; raise max_triangles or make it with fewer"};
+  }
+  if (control_section_points(h.u_num, h.l_num) > static_cast<std::size_t>(limits.max_control_points)) {
+    return {StatusCode::unsupported, "character has too many control points; raise max_control_points"};
+  }
+  return {};
+}
+
+ControlPoints read_controls(std::span<const Vec2> at, int u_num, int l_num) {
+  ControlPoints c;
+  std::size_t i = 0;
+  c.centre = at[i++], c.head = at[i++], c.tail = at[i++];
+  for (int k = 0; k < u_num; ++k) c.up_axis[k] = at[i++];
+  for (int k = 0; k < l_num; ++k) c.low_axis[k] = at[i++];
+  c.jun_tl = at[i++], c.jun_tr = at[i++], c.jun_bl = at[i++], c.jun_br = at[i++];
+  c.l_fin = at[i++], c.r_fin = at[i++];
+  return c;
+}
+
+}  // namespace
+
+Result<Character> open_character(std::span<const std::byte> bytes, const Limits& limits) {
+  CharacterHeader h;
+  if (const Status s = check_preamble(bytes, h); !s.ok()) return s;
+  if (const Status s = check_counts(h, limits); !s.ok()) return s;
+  const auto controls = section<Vec2>(bytes, h.controls_offset, control_section_points(h.u_num, h.l_num));
+  const auto vertices = section<Vec2>(bytes, h.vertices_offset, h.vertex_count);
+  const auto texcoords = section<Vec2>(bytes, h.texcoords_offset, h.vertex_count);
+  const auto triangles = section<uint32_t>(bytes, h.triangles_offset, uint64_t{3} * h.triangle_count);
+  const auto texture = section<uint8_t>(bytes, h.texture_offset, uint64_t{4} * h.texture_width * h.texture_height);
+  if (controls.empty() || vertices.empty() || texcoords.empty() || triangles.empty() || texture.empty()) {
+    return bad("character file is damaged (offsets); make it again with `neontetra character`");
+  }
+  if (!all_in_range(controls) || !all_in_range(vertices) || !all_unit(texcoords) ||
+      !all_below(triangles, h.vertex_count)) {
+    return bad("character file is damaged (values out of range); make it again with `neontetra character`");
+  }
+  Character c;
+  c.u_num = static_cast<int>(h.u_num);
+  c.l_num = static_cast<int>(h.l_num);
+  c.has_l_fin = (h.flags & kCharacterLeftFin) != 0;
+  c.has_r_fin = (h.flags & kCharacterRightFin) != 0;
+  c.rest = read_controls(controls, c.u_num, c.l_num);
+  c.vertices = vertices;
+  c.texcoords = texcoords;
+  c.triangles = triangles;
+  c.texture.pixels = texture.data();
+  c.texture.width = static_cast<int>(h.texture_width);
+  c.texture.height = static_cast<int>(h.texture_height);
+  c.texture.stride = 4 * c.texture.width;
+  c.texture.format = PixelFormat::rgba8;
+  c.texture.revision = h.checksum;  // another character in the same slot is uploaded again
+  return c;
+}
+
+}  // namespace nt

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/character/retarget.h"
+
+#include "core/base/det_math.h"
+
+namespace nt {
+namespace {
+
+// No fin lies nearer to the body's own line than this, back or ahead: it never crosses the axis.
+constexpr float kLeastOpen = 0.15f;
+constexpr float kMostOpen = det::kPi - 0.35f;
+// Step of the search for a fin's range, and the share of its rest area below which a triangle counts as crushed.
+constexpr float kRangeStep = 0.1f;
+constexpr float kCrushedArea = 0.1f;
+
+float distance(Vec2 a, Vec2 b) { return length(b - a); }
+
+Vec2 polar(float len, float angle_rad) {
+  const det::SinCos a = det::sincos(angle_rad);
+  return {len * a.cos, len * a.sin};
+}
+
+float angle_of(Vec2 v) { return det::atan2(v.y, v.x); }
+
+// The angle of bone k of n, counted from the centre, the last one ending at the head or tail, read from a motion whose
+// m bones cover the same axis. Bones are of equal length in both, so only fractions of the axis matter.
+float bone_angle(const float* axis, int axis_count, float end_angle, int k, int n) {
+  const int m = axis_count + 1;
+  const auto at = [&](int i) { return i < axis_count ? axis[i] : end_angle; };
+  if (m == n) return at(k);
+  const float middle = (static_cast<float>(k) + 0.5f) / static_cast<float>(n);
+  const float s = det::clamp(middle * static_cast<float>(m) - 0.5f, 0.0f, static_cast<float>(m - 1));
+  const int i = static_cast<int>(s);
+  if (i >= m - 1) return at(m - 1);
+  return at(i) + det::wrap(at(i + 1) - at(i)) * (s - static_cast<float>(i));
+}
+
+// FinRange's measure of an angle in the fish-local frame; in (-pi/2, 3 pi/2], so that it is continuous wherever a fin goes.
+float open_of_angle(float angle_rad, float side) {
+  return det::unwrap(side > 0 ? angle_rad + det::kHalfPi : -det::kHalfPi - angle_rad, det::kHalfPi);
+}
+float angle_of_open(float open, float side) { return side > 0 ? open - det::kHalfPi : -det::kHalfPi - open; }
+
+}  // namespace
+
+BoneLengths bone_lengths(const Character& character) {
+  const ControlPoints& c = character.rest;
+  BoneLengths l;
+  Vec2 joint = c.centre;
+  for (int i = 0; i < character.u_num; ++i) {
+    l.up_len[i] = distance(joint, c.up_axis[i]);
+    l.body_len += l.up_len[i];
+    joint = c.up_axis[i];
+  }
+  l.head_len = distance(joint, c.head);
+  joint = c.centre;
+  for (int i = 0; i < character.l_num; ++i) {
+    l.low_len[i] = distance(joint, c.low_axis[i]);
+    l.body_len += l.low_len[i];
+    joint = c.low_axis[i];
+  }
+  l.tail_len = distance(joint, c.tail);
+  l.body_len += l.head_len + l.tail_len;
+  l.l_fin_len = character.has_l_fin ? distance(c.jun_tl, c.l_fin) : 0.0f;
+  l.r_fin_len = character.has_r_fin ? distance(c.jun_tr, c.r_fin) : 0.0f;
+  return l;
+}
+
+Motion rest_motion(const Character& character) {
+  const auto image = [](Vec2 p) { return Vec2{p.x, -p.y}; };
+  const ControlPoints& c = character.rest;
+  FishPose pose;
+  pose.status = PoseStatus::ok;
+  pose.u_num = character.u_num;
+  pose.l_num = character.l_num;
+  pose.centre = image(c.centre);
+  pose.dir = {0.0f, -1.0f};
+  pose.head = image(c.head);
+  pose.tail = image(c.tail);
+  for (int i = 0; i < character.u_num; ++i) pose.up_axis[i] = image(c.up_axis[i]);
+  for (int i = 0; i < character.l_num; ++i) pose.low_axis[i] = image(c.low_axis[i]);
+  pose.jun_tl = image(c.jun_tl), pose.jun_tr = image(c.jun_tr);
+  pose.jun_bl = image(c.jun_bl), pose.jun_br = image(c.jun_br);
+  pose.l_fin = image(c.l_fin), pose.r_fin = image(c.r_fin);
+  pose.confidence = {1, 1, 1, character.has_l_fin ? 1.0f : 0.0f, character.has_r_fin ? 1.0f : 0.0f, 1};
+  Motion m = motion_from_pose(pose, 0, nullptr);
+  m.centre = {};
+  return m;
+}
+
+void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len) {
+  Fin& fin = fins_[index];
+  fin.present = true;
+  fin.first = control_count_;
+  fin.length = fin_len;
+  // By where the fin is rather than by its name: a mirrored or odd drawing still opens outwards.
+  fin.side = (tip.x - top.x) + (tip.x - character_.rest.centre.x) >= 0 ? 1.0f : -1.0f;
+  fin.rest_open = open_of_angle(angle_of(tip - top), fin.side);
+  rest_[control_count_++] = top;
+  rest_[control_count_++] = bottom;
+  rest_[control_count_++] = tip;
+}
+
+void Retarget::collect_rest() {
+  const ControlPoints& c = character_.rest;
+  control_count_ = 0;
+  rest_[control_count_++] = c.centre;
+  rest_[control_count_++] = c.head;
+  rest_[control_count_++] = c.tail;
+  for (int i = 0; i < character_.u_num; ++i) rest_[control_count_++] = c.up_axis[i];
+  for (int i = 0; i < character_.l_num; ++i) rest_[control_count_++] = c.low_axis[i];
+  if (character_.has_l_fin) add_fin(0, c.jun_tl, c.jun_bl, c.l_fin, lengths_.l_fin_len);
+  if (character_.has_r_fin) add_fin(1, c.jun_tr, c.jun_br, c.r_fin, lengths_.r_fin_len);
+}
+
+Result<Retarget*> Retarget::create(Arena& arena, const Character& character, const RetargetSettings& settings) {
+  Retarget r;
+  r.character_ = character;
+  r.settings_ = settings;
+  r.lengths_ = bone_lengths(character);
+  if (!(r.lengths_.body_len > 0.0f)) {
+    return Status{StatusCode::bad_data, "the character's axis has no length; place its head and tail apart"};
+  }
+  r.collect_rest();
+  const std::span<Retarget> self = arena.take<Retarget>(1);
+  const std::span<const Vec2> rest{r.rest_, r.control_count_};
+  const std::span<const Vec2> body = rest.first(r.body_count());
+  // The fins' six points behind the body's; only their junctions are read.
+  r.junctions_ = Mls::create(arena, rest.subspan(body.size()), body, settings.mls, settings.mls_alpha);
+  r.mesh_ = Mls::create(arena, character.vertices, rest, settings.mls, settings.mls_alpha);
+  r.vertices_ = arena.take<Vec2>(character.vertices.size());
+  r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
+  if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));
+  if (arena.full()) return Status{StatusCode::out_of_memory, "no memory for the character; raise max_vertices"};
+  for (int i = 0; i < 2; ++i) {
+    if (r.fins_[i].present) r.find_fin_range(i);
+  }
+  self[0] = r;
+  return Result<Retarget*>(&self[0]);
+}
+
+// Whether no triangle turns over or is crushed when one fin alone stands at `open`.
+bool Retarget::fin_fits(const Fin& fin, float open) {
+  for (std::size_t i = 0; i < control_count_; ++i) points_[i] = rest_[i];
+  points_[fin.first + 2] = rest_[fin.first] + polar(fin.length, angle_of_open(open, fin.side));
+  mesh_->deform({points_, control_count_}, vertices_);
+  const std::span<const uint32_t> t = character_.triangles;
+  const std::span<const Vec2> v = character_.vertices;
+  for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
+    const float before = cross(v[t[i + 1]] - v[t[i]], v[t[i + 2]] - v[t[i]]);
+    const float after = cross(vertices_[t[i + 1]] - vertices_[t[i]], vertices_[t[i + 2]] - vertices_[t[i]]);
+    if (after * before < kCrushedArea * before * before) return false;
+  }
+  return true;
+}
+
+void Retarget::find_fin_range(int index) {
+  const Fin& fin = fins_[index];
+  FinRange range{fin.rest_open, fin.rest_open};
+  while (range.folded - kRangeStep > kLeastOpen && fin_fits(fin, range.folded - kRangeStep)) range.folded -= kRangeStep;
+  while (range.open + kRangeStep < kMostOpen && fin_fits(fin, range.open + kRangeStep)) range.open += kRangeStep;
+  fin_range_[index] = range;
+}
+
+void Retarget::start(float init_len_px) {
+  scale_ = init_len_px > 0.0f ? lengths_.body_len / init_len_px : 1.0f;
+  filter_.reset();
+  started_ = false;
+}
+
+// Algorithm 3, lines 1-5.
+void Retarget::pose_body(const Motion& m) {
+  const int up = character_.u_num, low = character_.l_num;
+  std::size_t at = 3;
+  Vec2 joint;
+  points_[0] = joint;
+  for (int i = 0; i < up; ++i) {
+    joint += polar(lengths_.up_len[i], bone_angle(m.up_axis_angle, m.u_num, m.head_angle, i, up + 1));
+    points_[at++] = joint;
+  }
+  points_[1] = joint + polar(lengths_.head_len, bone_angle(m.up_axis_angle, m.u_num, m.head_angle, up, up + 1));
+  joint = points_[0];
+  for (int i = 0; i < low; ++i) {
+    joint += polar(lengths_.low_len[i], bone_angle(m.low_axis_angle, m.l_num, m.tail_angle, i, low + 1));
+    points_[at++] = joint;
+  }
+  points_[2] = joint + polar(lengths_.tail_len, bone_angle(m.low_axis_angle, m.l_num, m.tail_angle, low, low + 1));
+}
+
+// Algorithm 4, lines 2-4, for one fin: its junctions have been moved with the body already.
+void Retarget::pose_fin(int index, float angle_rad) {
+  const Fin& fin = fins_[index];
+  const Vec2 top = points_[fin.first], bottom = points_[fin.first + 1];
+  // How far the body has turned where the fin is rooted; the range of the fin turns with it.
+  const float turn = det::wrap(angle_of(bottom - top) - angle_of(rest_[fin.first + 1] - rest_[fin.first]));
+  const float fish_side = index == 0 ? -1.0f : 1.0f;
+  const float open = open_of_angle(angle_rad - turn, fish_side);
+  const float fitted = det::clamp(open, fin_range_[index].folded, fin_range_[index].open);
+  points_[fin.first + 2] = top + polar(fin.length, angle_of_open(fitted, fin.side) + turn);
+}
+
+void Retarget::smooth(Frame& frame, float dt_s) {
+  if (started_) frame.dir_rad = det::unwrap(frame.dir_rad, last_dir_rad_);
+  last_dir_rad_ = frame.dir_rad;
+  started_ = true;
+  if (!settings_.smooth) return;
+  // A turn moves the ends of the body by half a body length per radian: in that unit it has the points' noise.
+  const float arm = 0.5f * lengths_.body_len;
+  float values[2 * kMaxControls + 3];
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < control_count_; ++i) {
+    values[n++] = points_[i].x;
+    values[n++] = points_[i].y;
+  }
+  values[n++] = frame.centre.x;
+  values[n++] = frame.centre.y;
+  values[n++] = frame.dir_rad * arm;
+  filter_.update({values, n}, dt_s);
+  n = 0;
+  for (std::size_t i = 0; i < control_count_; ++i) {
+    points_[i] = {values[n], values[n + 1]};
+    n += 2;
+  }
+  frame = {{values[n], values[n + 1]}, values[n + 2] / arm};
+}
+
+void Retarget::place(const Frame& frame, const Placement& placement) {
+  const det::SinCos a = det::sincos(frame.dir_rad);
+  const Vec2 dir{a.cos, a.sin};
+  const Vec2 up = dir * placement.zoom, right = right_of(dir) * placement.zoom;
+  const Vec2 origin = placement.offset + frame.centre * placement.zoom;
+  const auto scene = [&](Vec2 p) { return origin + right * p.x + up * p.y; };
+  for (Vec2& v : vertices_) v = scene(v);
+  ControlPoints& c = scene_points_;
+  std::size_t at = 0;
+  c.centre = scene(points_[at++]), c.head = scene(points_[at++]), c.tail = scene(points_[at++]);
+  for (int i = 0; i < character_.u_num; ++i) c.up_axis[i] = scene(points_[at++]);
+  for (int i = 0; i < character_.l_num; ++i) c.low_axis[i] = scene(points_[at++]);
+  if (fins_[0].present) {
+    const Vec2* fin = points_ + fins_[0].first;
+    c.jun_tl = scene(fin[0]), c.jun_bl = scene(fin[1]), c.l_fin = scene(fin[2]);
+  }
+  if (fins_[1].present) {
+    const Vec2* fin = points_ + fins_[1].first;
+    c.jun_tr = scene(fin[0]), c.jun_br = scene(fin[1]), c.r_fin = scene(fin[2]);
+  }
+}
+
+void Retarget::pose(const Motion& motion, float dt_s, const Placement& placement) {
+  pose_body(motion);
+  const std::size_t body = body_count();
+  junctions_->deform({points_, body}, {points_ + body, control_count_ - body});
+  if (fins_[0].present) pose_fin(0, motion.l_fin_angle);
+  if (fins_[1].present) pose_fin(1, motion.r_fin_angle);
+  Frame frame{motion.centre * scale_, motion.dir_rad};
+  smooth(frame, dt_s);
+  mesh_->deform({points_, control_count_}, vertices_);
+  place(frame, placement);
+}
+
+}  // namespace nt

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motion M + character -> the character's vertices, [F] sections 5.1-5.3 (Algorithms 1, 3, 4, Eq 15).
+//
+// Input: Motion (angles in the fish-local frame, centre in frame pixels). Output: one Vec2 per vertex in scene
+// coordinates: x right, y down, the character's centre at `scale * M.centre` (Eq 15: scale = L.body_len / init_len), its
+// head turned to M.dir. The caller may place and zoom the result with `placement`.
+// Steps: body control points from bone lengths and angles (Alg 3) -> moving least squares moves the four junctions ->
+// fin tips (Alg 4) -> Kalman filter per control-point coordinate -> moving least squares moves all vertices.
+// Differs from [F]: only the junctions of the implicit model are deformed; its other vertices are never shown. A fin turns
+// only as far as this drawing's triangles bear (found once, see FinRange): [F] section 6.3 calls the distortion beyond it
+// inevitable. The filter also runs over the centre and the direction, which [F] leaves to its points in the world.
+// Memory: fixed, from the arena; cost: vertices x control points x 8 flops (2,500 x 27: well under 0.1 ms).
+#pragma once
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/character/character.h"
+#include "core/deform/mls.h"
+#include "core/motion/filter.h"
+#include "core/motion/motion.h"
+
+namespace nt {
+
+// [F] Eq 13: the simplified curve skeleton L, lengths in character units.
+struct BoneLengths {
+  float body_len = 0, head_len = 0, tail_len = 0, l_fin_len = 0, r_fin_len = 0;
+  float up_len[kMaxUpAxis] = {};
+  float low_len[kMaxLowAxis] = {};
+};
+BoneLengths bone_lengths(const Character& character);  // Algorithm 1
+
+// M0: the motion that poses the character as it was drawn (swimming up the screen, centre at 0), [F] section 6.2.
+Motion rest_motion(const Character& character);
+
+struct RetargetSettings {
+  MlsKind mls = MlsKind::rigid;
+  float mls_alpha = 1.0f;     // weights 1 / |p - v|^(2 alpha)
+  bool smooth = true;         // Kalman filter over the control points
+};
+
+// Where the character goes: scene = offset + zoom * (Eq 15's position).
+struct Placement {
+  Vec2 offset;
+  float zoom = 1.0f;
+};
+
+// How far a fin opens: 0 = straight back along the body, pi/2 = straight out, pi = straight ahead; radians, left and right
+// alike, measured from the body where the fin is rooted.
+struct FinRange {
+  float folded = 0, open = 0;
+};
+
+class Retarget {
+ public:
+  // Everything that depends only on the rest pose is computed here, once (about 10 ms for 2,500 vertices, most of it the
+  // search for the fins' ranges). The arena may be measuring: then the pointer is null.
+  static Result<Retarget*> create(Arena& arena, const Character& character, const RetargetSettings& settings);
+
+  // Forgets the filters' state; init_len (pixels) is the fish's axis length in the first tracked frame (Eq 15).
+  void start(float init_len_px);
+  // Poses the character; the spans below stay valid until the next call. dt_s is the time since the last call; 0 or a
+  // gap that the filter cannot bridge takes the motion as it is.
+  void pose(const Motion& motion, float dt_s, const Placement& placement);
+
+  std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
+  const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
+  const BoneLengths& lengths() const { return lengths_; }
+  FinRange left_fin_range() const { return fin_range_[0]; }
+  FinRange right_fin_range() const { return fin_range_[1]; }
+
+ private:
+  // The control points that are used, one after the other: the body, then per fin the two junctions and the tip.
+  static constexpr std::size_t kMaxControls = 9 + kMaxUpAxis + kMaxLowAxis;
+  struct Fin {
+    bool present = false;
+    std::size_t first = 0;  // of its three control points
+    float side = 1;         // +1 on the x > 0 side of the drawing at rest, else -1
+    float rest_open = 0;    // FinRange's measure, at rest
+    float length = 0;
+  };
+  struct Frame {  // where local coordinates go
+    Vec2 centre;  // character units
+    float dir_rad = 0;
+  };
+  std::size_t body_count() const { return 3u + static_cast<std::size_t>(character_.u_num + character_.l_num); }
+  void collect_rest();
+  void add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float length);
+  void find_fin_range(int index);
+  bool fin_fits(const Fin& fin, float open);
+  void pose_body(const Motion& motion);
+  void pose_fin(int index, float motion_open);
+  void smooth(Frame& frame, float dt_s);
+  void place(const Frame& frame, const Placement& placement);
+
+  Character character_;
+  BoneLengths lengths_;
+  RetargetSettings settings_;
+  Mls* junctions_ = nullptr;  // the implicit model: body control points move the junctions
+  Mls* mesh_ = nullptr;       // the explicit model: all control points move the vertices
+  KalmanBank filter_;
+  float last_dir_rad_ = 0;
+  bool started_ = false;
+  float scale_ = 1;           // character units per frame pixel
+  Fin fins_[2];
+  FinRange fin_range_[2];
+  std::size_t control_count_ = 0;
+  Vec2 rest_[kMaxControls], points_[kMaxControls];  // character units, local frame
+  std::span<Vec2> vertices_;
+  ControlPoints scene_points_;
+};
+
+}  // namespace nt

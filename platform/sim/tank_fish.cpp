@@ -7,11 +7,11 @@ namespace nt::tank {
 namespace {
 
 constexpr float kStep = 1.0f / kSpineSteps;
-constexpr float kWidestS = 0.30f, kWidest = 0.085f;      // half width, BL
+constexpr float kWidestS = 0.30f, kWidest = 0.085f;  // half width, BL
 constexpr float kPeduncleS = 0.82f, kPeduncle = 0.020f;
-constexpr float kFinFrontS = 0.24f, kFinRearS = 0.32f;   // roots of the pectoral fins
+constexpr float kFinFrontS = 0.24f, kFinRearS = 0.32f;  // roots of the pectoral fins
 constexpr float kFinLength = 0.16f;
-constexpr float kWaveLength = 0.95f;                     // BL, carangiform
+constexpr float kWaveLength = 0.95f;  // BL, carangiform
 
 float smooth(float t) {
   t = det::clamp(t, 0.0f, 1.0f);
@@ -133,8 +133,8 @@ void FishModel::bend_spine(const Posture& posture, FishShape& out) const {
   Vec2 towards_head[kSpinePoints];
   for (int i = 0; i + 1 < kSpinePoints; ++i) {
     const float s = det::max((static_cast<float>(i - kSpineBefore) + 0.5f) * kStep, 0.0f);
-    const float wave = posture.wave_rad * wave_share_[i] *
-                       det::sin(posture.wave_phase_rad - det::kTwoPi / kWaveLength * s);
+    const float wave =
+        posture.wave_rad * wave_share_[i] * det::sin(posture.wave_phase_rad - det::kTwoPi / kWaveLength * s);
     const det::SinCos d = det::sincos(posture.heading_rad + posture.bend_rad * bend_share_[i] + wave);
     towards_head[i] = {d.cos, d.sin};
   }

@@ -16,39 +16,39 @@
 
 namespace nt::tank {
 
-inline constexpr int kSpineSteps = 96;   // midline segments from snout to tail
-inline constexpr int kSpineBefore = 5;   // steps that the spine reaches past the snout, straight
-inline constexpr int kSpineAfter = 14;   // and past the tail point, for the lobes of the caudal fin
+inline constexpr int kSpineSteps = 96;  // midline segments from snout to tail
+inline constexpr int kSpineBefore = 5;  // steps that the spine reaches past the snout, straight
+inline constexpr int kSpineAfter = 14;  // and past the tail point, for the lobes of the caudal fin
 inline constexpr int kSpinePoints = kSpineBefore + kSpineSteps + kSpineAfter + 1;
-inline constexpr int kPivotStep = 36;    // the step of the point that the Posture places: s = 0.375
+inline constexpr int kPivotStep = 36;  // the step of the point that the Posture places: s = 0.375
 inline constexpr int kLeft = 0, kRight = 1;
 
 struct Posture {
-  Vec2 pivot;                // frame pixels, the midline at s = 0.375
-  float heading_rad = 0;     // of the body at the pivot
-  float bend_rad = 0;        // head direction minus tail direction: positive turns right (clockwise on the screen)
-  float wave_rad = 0;        // amplitude of the travelling wave's heading at the tail
-  float wave_phase_rad = 0;  // grows in time; the wave runs to the tail
-  float fin_rad[2] = {0, 0}; // angle of each pectoral fin's leading edge from the body's side; see kFinFolded
+  Vec2 pivot;                 // frame pixels, the midline at s = 0.375
+  float heading_rad = 0;      // of the body at the pivot
+  float bend_rad = 0;         // head direction minus tail direction: positive turns right (clockwise on the screen)
+  float wave_rad = 0;         // amplitude of the travelling wave's heading at the tail
+  float wave_phase_rad = 0;   // grows in time; the wave runs to the tail
+  float fin_rad[2] = {0, 0};  // angle of each pectoral fin's leading edge from the body's side; see kFinFolded
 };
 
 inline constexpr float kFinFolded = -0.22f;  // the fin lies hidden along the body
 inline constexpr float kFinOpen = 1.15f;     // and stands well out
 
 struct FinShape {
-  std::vector<Vec2> polygon;   // the whole fin, part of it under the body
-  std::vector<Vec2> outside;   // its outline beyond the body, first and last on the body's outline; empty when hidden
-  Vec2 tip;                    // outline point farthest from the midline
-  Vec2 front, rear;            // where it meets the body's outline
-  Vec2 root;                   // of the leading edge
-  float stands_out = 0;        // largest distance beyond the body's outline, BL
+  std::vector<Vec2> polygon;  // the whole fin, part of it under the body
+  std::vector<Vec2> outside;  // its outline beyond the body, first and last on the body's outline; empty when hidden
+  Vec2 tip;                   // outline point farthest from the midline
+  Vec2 front, rear;           // where it meets the body's outline
+  Vec2 root;                  // of the leading edge
+  float stands_out = 0;       // largest distance beyond the body's outline, BL
 };
 
 struct FishShape {
   float length_px = 0;
-  std::vector<Vec2> spine;    // kSpinePoints, evenly spaced in s
-  std::vector<Vec2> normal;   // unit, to the fish's right, at each
-  std::vector<Vec2> body;     // closed: body with caudal fin
+  std::vector<Vec2> spine;   // kSpinePoints, evenly spaced in s
+  std::vector<Vec2> normal;  // unit, to the fish's right, at each
+  std::vector<Vec2> body;    // closed: body with caudal fin
   FinShape fin[2];
   std::vector<Vec2> contour;  // closed: the union of all
 

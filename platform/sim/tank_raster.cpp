@@ -9,6 +9,8 @@
 namespace nt::tank {
 namespace {
 
+constexpr float kRounding = 1e-4f;  // what a row's sum may be off by; below it a pixel is clear
+
 int floor_int(float v) {
   const int i = static_cast<int>(v);
   return static_cast<float>(i) > v ? i - 1 : i;
@@ -78,7 +80,8 @@ void Coverage::finish() {
     float sum = 0.0f;
     for (std::size_t x = 0; x < stride_; ++x) {
       sum += cells[x];
-      cells[x] = det::min(det::abs(sum), 1.0f);
+      const float area = det::abs(sum);
+      cells[x] = area < kRounding ? 0.0f : det::min(area, 1.0f);
     }
   }
 }

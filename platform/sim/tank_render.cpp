@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/base/det_math.h"
-#include "platform/sim/tank_skin.h"
 
 namespace nt::tank {
 namespace {
@@ -57,7 +56,7 @@ Renderer::Renderer(const TankScene& scene, uint64_t seed, int width, int height)
   }
   std::copy_n(noise_.begin(), stride_, noise_.begin() + kNoiseCells);  // a row may start anywhere
   luma_.assign(gravel_.size(), 0);
-  make_skin(scene, skin_luma_, skin_alpha_);
+  skin_ = make_skin(scene);
 }
 
 LumaView Renderer::render(const FishShape& shape) {
@@ -93,6 +92,7 @@ void Renderer::draw_shadow(const FishShape& shape) {
       const int cx = (x >> 1) - box.x0, nx = clamp_int(cx + ((x & 1) != 0 ? 1 : -1), 0, box.width() - 1);
       const float a = 0.75f * near_row[cx] + 0.25f * near_row[nx];
       const float b = 0.75f * next_row[cx] + 0.25f * next_row[nx];
+      if (a + b <= 0.0f) continue;
       const float lit = 1.0f - scene_.shadow_strength * (0.75f * a + 0.25f * b);
       work[x] = static_cast<int16_t>(static_cast<float>(work[x]) * lit + 0.5f);
     }
@@ -120,8 +120,7 @@ void Renderer::draw_fish(const FishShape& shape) {
 
 void Renderer::map_skin(const FishShape& shape) {
   const auto cells = static_cast<std::size_t>(fish_box_.width()) * fish_box_.height();
-  skin_s_.assign(cells, 0.0f);
-  skin_n_.assign(cells, 0.0f);
+  map_.assign(cells, {});
   fish_alpha_.assign(cells, 0);
   for (int step = 0; step + 1 < kSpinePoints; ++step) map_skin_segment(shape, step);
 }
@@ -133,6 +132,7 @@ void Renderer::map_skin_segment(const FishShape& shape, int step) {
   const Vec2 corners[4] = {a - na * reach, a + na * reach, b + nb * reach, b - nb * reach};
   const Box box = intersect(box_of(corners, 0), fish_box_);
   const Vec2 middle = normalised(na + nb);
+  const float per_px = 1.0f / length_px_;
   for (int y = box.y0; y < box.y1; ++y) {
     // The pixels of this row within the quadrilateral: from the least to the greatest crossing of its edges.
     float x_lo = 1e9f, x_hi = -1e9f;
@@ -151,13 +151,13 @@ void Renderer::map_skin_segment(const FishShape& shape, int step) {
     const int to = min_int(box.x1, static_cast<int>(det::min(x_hi, 30000.0f)) + 3);
     for (int x = from; x < to; ++x) {
       const Vec2 p{static_cast<float>(x), fy};
-      const float past_a = cross(p - a, na), before_b = cross(nb, p - b) ;
+      const float past_a = cross(p - a, na), before_b = cross(nb, p - b);
       if (past_a * before_b < 0.0f) continue;
       const float whole = past_a + before_b;
       const float t = det::abs(whole) > 1e-6f ? past_a / whole : 0.0f;
       const auto cell = static_cast<std::size_t>(y - fish_box_.y0) * fish_box_.width() + (x - fish_box_.x0);
-      skin_s_[cell] = (static_cast<float>(step - kSpineBefore) + t) * (1.0f / kSpineSteps);
-      skin_n_[cell] = dot(p - lerp(a, b, t), middle) * (1.0f / length_px_);
+      map_[cell] = {(static_cast<float>(step - kSpineBefore) + t) * (1.0f / kSpineSteps),
+                    dot(p - lerp(a, b, t), middle) * per_px};
     }
   }
 }
@@ -165,14 +165,18 @@ void Renderer::map_skin_segment(const FishShape& shape, int step) {
 void Renderer::blend_row(const FishShape& shape, int y, int x0, int x1) {
   int16_t* work = work_row(y);
   const auto base = static_cast<std::size_t>(y - fish_box_.y0) * fish_box_.width();
+  const float* body_row = body_.row(y);
   const Coverage &left = fins_[kLeft], &right = fins_[kRight];
   for (int x = x0; x < x1; ++x) {
     const std::size_t cell = base + (x - fish_box_.x0);
+    const float body = body_row[x - fish_box_.x0];
+    const float on_fin[2] = {left.at(x, y), right.at(x, y)};
+    if (body + on_fin[kLeft] + on_fin[kRight] <= 0.0f) continue;
     float seen = static_cast<float>(work[x]);
     float through = 1.0f;  // of the gravel
     const float bright = light(x, y) * 16.0f;
     for (int side : {kLeft, kRight}) {
-      const float cover = (side == kLeft ? left : right).at(x, y);
+      const float cover = on_fin[side];
       if (cover <= 0.0f) continue;
       const float ray = fin_ray(Vec2{static_cast<float>(x), static_cast<float>(y)} - shape.fin[side].root,
                                 shape.fin[side].tip - shape.fin[side].root);
@@ -180,10 +184,9 @@ void Renderer::blend_row(const FishShape& shape, int y, int x0, int x1) {
       seen += alpha * (scene_.body_luma * (0.98f + 0.10f * ray) * bright - seen);
       through *= 1.0f - alpha;
     }
-    const float cover = body_.at(x, y);
-    if (cover > 0.0f) {
-      const Skin skin = skin_at(skin_luma_, skin_alpha_, skin_s_[cell], skin_n_[cell]);
-      const float alpha = cover * skin.alpha;
+    if (body > 0.0f) {
+      const Skin skin = skin_at(skin_, map_[cell].s, map_[cell].n);
+      const float alpha = body * skin.alpha;
       seen += alpha * (skin.luma * bright - seen);
       through *= 1.0f - alpha;
     }
@@ -216,9 +219,9 @@ std::span<const uint8_t> Renderer::rgb() {
     const uint8_t* luma = luma_.data() + static_cast<std::size_t>(y) * stride_;
     for (int x = 0; x < width_; ++x, out += 3) {
       const bool near_fish = x >= fish_box_.x0 && y >= fish_box_.y0 && x < fish_box_.x1 && y < fish_box_.y1;
-      const int alpha = near_fish ? fish_alpha_[static_cast<std::size_t>(y - fish_box_.y0) * fish_box_.width() +
-                                                (x - fish_box_.x0)]
-                                  : 0;
+      const int alpha =
+          near_fish ? fish_alpha_[static_cast<std::size_t>(y - fish_box_.y0) * fish_box_.width() + (x - fish_box_.x0)]
+                    : 0;
       for (int c = 0; c < 3; ++c) {
         const int tint = (gravel_tint.offset(luma[x], c) * (255 - alpha) + fish_tint.offset(luma[x], c) * alpha) / 255;
         out[c] = static_cast<uint8_t>(clamp_int(luma[x] + tint, 0, 255));

@@ -14,6 +14,7 @@
 #include "platform/sim/tank_fish.h"
 #include "platform/sim/tank_raster.h"
 #include "platform/sim/tank_scenes.h"
+#include "platform/sim/tank_skin.h"
 
 namespace nt::tank {
 
@@ -41,13 +42,16 @@ class Renderer {
   int width_, height_, stride_;
   float length_px_;
   std::vector<float> light_x_, light_y_;
-  std::vector<float> skin_luma_, skin_alpha_;  // of the fish in body coordinates, kSkinS x kSkinN
+  std::vector<Skin> skin_;  // of the fish in body coordinates, kSkinS x kSkinN
   std::vector<int16_t> gravel_, work_, noise_;
   std::vector<uint8_t> luma_, rgb_;
   Coverage shadow_, body_, fins_[2];
-  Box fish_box_;                    // may reach past the frame
-  std::vector<float> skin_s_, skin_n_;  // body coordinates of every pixel of fish_box_
-  std::vector<uint8_t> fish_alpha_;     // of every pixel of fish_box_, for colour
+  Box fish_box_;  // may reach past the frame
+  struct BodyPoint {
+    float s = 0, n = 0;
+  };
+  std::vector<BodyPoint> map_;       // body coordinates of every pixel of fish_box_
+  std::vector<uint8_t> fish_alpha_;  // of every pixel of fish_box_, for colour
   bool rgb_ready_ = false;
 };
 

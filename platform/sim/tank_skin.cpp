@@ -32,7 +32,8 @@ float body_tone(float s, float n) {
   const float half = det::max(body_half_width(s), 0.015f);
   const float q = n / half;  // -1 .. 1 across the body
   float tone = 1.06f - 0.20f * q * q;
-  tone -= 0.20f * (1.0f - smooth(det::abs(n) / 0.020f)) * smooth((s - 0.06f) / 0.10f) * (1.0f - smooth((s - 0.75f) / 0.1f));
+  tone -=
+      0.20f * (1.0f - smooth(det::abs(n) / 0.020f)) * smooth((s - 0.06f) / 0.10f) * (1.0f - smooth((s - 0.75f) / 0.1f));
   tone += 0.10f * scales(s, n) * smooth((s - 0.24f) / 0.05f) * (1.0f - smooth((s - 0.82f) / 0.05f));
   const float gill = det::abs(s - 0.20f + 1.5f * n * n / 0.085f);
   tone -= 0.14f * (1.0f - smooth(gill / 0.012f)) * smooth((det::abs(n) - 0.03f) / 0.02f);
@@ -44,33 +45,19 @@ float ray_pattern(float v) { return 0.5f * det::sin(det::kTwoPi * v); }
 
 }  // namespace
 
-void make_skin(const TankScene& scene, std::vector<float>& luma, std::vector<float>& alpha) {
-  luma.resize(static_cast<std::size_t>(kSkinS) * kSkinN);
-  alpha.resize(luma.size());
+std::vector<Skin> make_skin(const TankScene& scene) {
+  std::vector<Skin> skin(static_cast<std::size_t>(kSkinS) * kSkinN);
   for (int j = 0; j < kSkinN; ++j)
     for (int i = 0; i < kSkinS; ++i) {
       const float s = kSkinS0 + (kSkinS1 - kSkinS0) * static_cast<float>(i) / (kSkinS - 1);
       const float n = kSkinHalfWidth * (2.0f * static_cast<float>(j) / (kSkinN - 1) - 1.0f);
       const float fin = smooth((s - 0.83f) / 0.07f);  // 0 on the body, 1 on the caudal fin
       const float ray = ray_pattern(5.0f * n / det::max(s - 0.78f, 0.03f));
-      const auto cell = static_cast<std::size_t>(j) * kSkinS + i;
-      luma[cell] = scene.body_luma * ((1.0f - fin) * body_tone(s, n) + fin * (0.97f + 0.10f * ray));
-      alpha[cell] = (1.0f - fin) + fin * (kCaudalAlpha + 0.18f * ray);
+      skin[static_cast<std::size_t>(j) * kSkinS + i] = {
+          scene.body_luma * ((1.0f - fin) * body_tone(s, n) + fin * (0.97f + 0.10f * ray)),
+          (1.0f - fin) + fin * (kCaudalAlpha + 0.18f * ray)};
     }
-}
-
-Skin skin_at(const std::vector<float>& luma, const std::vector<float>& alpha, float s, float n) {
-  const float u = det::clamp((s - kSkinS0) * ((kSkinS - 1) / (kSkinS1 - kSkinS0)), 0.0f, kSkinS - 1.01f);
-  const float v = det::clamp((n + kSkinHalfWidth) * ((kSkinN - 1) / (2.0f * kSkinHalfWidth)), 0.0f, kSkinN - 1.01f);
-  const int i = static_cast<int>(u), j = static_cast<int>(v);
-  const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
-  const auto cell = static_cast<std::size_t>(j) * kSkinS + i;
-  const auto mix = [&](const std::vector<float>& t) {
-    const float top = t[cell] + (t[cell + 1] - t[cell]) * fu;
-    const float bottom = t[cell + kSkinS] + (t[cell + kSkinS + 1] - t[cell + kSkinS]) * fu;
-    return top + (bottom - top) * fv;
-  };
-  return {mix(luma), mix(alpha)};
+  return skin;
 }
 
 float fin_ray(Vec2 at, Vec2 tip) {
@@ -86,7 +73,8 @@ Tints::Tints(float cr_per_luma, float cb_per_luma) {
     const float y = static_cast<float>(luma);
     float cr = cr_per_luma * y, cb = cb_per_luma * y;
     // Red may rise to 255 and blue fall to 0, no further.
-    const float keep = det::min(1.0f, det::min((255.0f - y) / det::max(1.402f * cr, 1e-3f), y / det::max(-1.772f * cb, 1e-3f)));
+    const float keep =
+        det::min(1.0f, det::min((255.0f - y) / det::max(1.402f * cr, 1e-3f), y / det::max(-1.772f * cb, 1e-3f)));
     cr *= keep;
     cb *= keep;
     const float channels[3] = {1.402f * cr, -0.344136f * cb - 0.714136f * cr, 1.772f * cb};

@@ -7,10 +7,11 @@ namespace nt::tank {
 namespace {
 
 constexpr float kStepS = 1.0f / 120.0f;
-constexpr float kWallRoom = 0.72f;      // BL between the pivot and a wall before the fish steers away
-constexpr float kWallTurn = 2.2f;       // rad/s, the hardest it steers
-constexpr float kOutside = 1.15f;       // BL past the edge at which nothing of the fish is seen
-constexpr float kStationSpeed = 0.6f;   // BL/s, the fastest it drifts
+constexpr float kWallRoom = 0.72f;     // BL between the pivot and a wall before the fish steers away
+constexpr float kWallTurn = 2.2f;      // rad/s, the hardest it steers
+constexpr float kWallSpeed = 0.4f;     // BL/s, to which it brakes there
+constexpr float kOutside = 1.15f;      // BL past the edge at which nothing of the fish is seen
+constexpr float kStationSpeed = 0.6f;  // BL/s, the fastest it drifts
 
 // Moves a value towards its target with the time constant tau.
 void follow(float& value, float target, float h, float tau) { value += (target - value) * det::min(h / tau, 1.0f); }
@@ -27,7 +28,8 @@ Swimmer::Swimmer(const TankScene& scene, uint64_t seed, int width, int height)
       random_(seed ^ 0x5357494dull),
       size_{static_cast<float>(width), static_cast<float>(height)},
       length_px_(scene.body_length * static_cast<float>(width)) {
-  const Vec2 inset{det::min(kWallRoom * length_px_, 0.45f * size_.x), det::min(kWallRoom * length_px_, 0.45f * size_.y)};
+  const Vec2 inset{det::min(kWallRoom * length_px_, 0.45f * size_.x),
+                   det::min(kWallRoom * length_px_, 0.45f * size_.y)};
   room_lo_ = inset;
   room_hi_ = size_ - inset;
   pivot_ = size_ * 0.5f + Vec2{symmetric() * 0.05f * size_.x, symmetric() * 0.1f * size_.y};
@@ -66,10 +68,8 @@ void Swimmer::advance(double dt_s) {
 void Swimmer::step(float h) {
   change_place(h);
   change_gait(h);
-  if (scene_.holds_station)
-    hold_station(h);
-  else
-    swim(h);
+  if (scene_.holds_station) hold_station(h);
+  else swim(h);
   beat(h);
   for (int side : {kLeft, kRight}) move_fin(side, h);
 }
@@ -130,9 +130,13 @@ void Swimmer::change_c_start(float h) {
   }
   until_c_start_s_ -= h;
   if (until_c_start_s_ > 0 || place_ != Place::inside || resting_ || !in_room(pivot_)) return;
+  // Towards the middle, so that the burst after it has room; a fish that heads there already waits.
+  const float inwards = turn_towards(size_ * 0.5f);
+  const float least = 0.45f * scene_.c_start_turn_rad;
+  if (det::abs(inwards) < 0.5f * least) return;
   c_start_age_s_ = 0;
-  const float side = turn_towards(size_ * 0.5f) < 0 ? -1.0f : 1.0f;
-  c_start_turn_rad_ = side * scene_.c_start_turn_rad * (0.6f + 0.4f * random_.unit());
+  const float turn = det::clamp(det::abs(inwards), least, scene_.c_start_turn_rad);
+  c_start_turn_rad_ = inwards < 0 ? -turn : turn;
 }
 
 float Swimmer::turn_towards(Vec2 goal) const {
@@ -140,10 +144,13 @@ float Swimmer::turn_towards(Vec2 goal) const {
   return det::wrap(det::atan2(to.y, to.x) - heading_);
 }
 
+bool Swimmer::near_wall() const {
+  return place_ == Place::inside && !in_room(pivot_ + unit(heading_) * ((0.2f + 0.7f * speed_) * length_px_));
+}
+
 float Swimmer::wanted_turn(float h) {
   if (place_ != Place::inside) return det::clamp(2.5f * turn_towards(goal_), -kWallTurn, kWallTurn);
-  const Vec2 ahead = pivot_ + unit(heading_) * ((0.25f + 0.5f * speed_) * length_px_);
-  if (!in_room(ahead)) return det::clamp(2.5f * turn_towards(size_ * 0.5f), -kWallTurn, kWallTurn);
+  if (near_wall()) return det::clamp(2.5f * turn_towards(size_ * 0.5f), -kWallTurn, kWallTurn);
   until_wander_s_ -= h;
   if (until_wander_s_ <= 0) {
     until_wander_s_ = around(scene_.wander_s);
@@ -159,8 +166,10 @@ void Swimmer::swim(float h) {
     return;
   }
   const bool travels = place_ != Place::inside;
-  const float wanted = resting_ ? 0.0f : bursting_ || travels ? scene_.burst_bl_s : scene_.cruise_bl_s;
-  follow(speed_, wanted, h, bursting_ || travels ? 0.35f : 0.8f);
+  const bool brakes = near_wall();
+  const float swims = bursting_ || travels ? scene_.burst_bl_s : scene_.cruise_bl_s;
+  const float wanted = resting_ ? 0.0f : brakes ? det::min(swims, kWallSpeed) : swims;
+  follow(speed_, wanted, h, bursting_ || travels || brakes ? 0.35f : 0.8f);
   const float turn = wanted_turn(h);
   if (c_start_age_s_ >= 0) {
     // The turn and the bend rise and fall together as sin^2; the mean of sin^2 is 1/2.

@@ -32,6 +32,7 @@ class Swimmer {
   float wanted_turn(float h);
   float turn_towards(Vec2 goal) const;
   bool in_room(Vec2 p) const;
+  bool near_wall() const;  // it would soon leave its room
   void swim(float h);
   void hold_station(float h);
   void beat(float h);
@@ -49,7 +50,7 @@ class Swimmer {
   Place place_ = Place::inside;
   float until_place_s_ = 0;
   Vec2 goal_;
-  Vec2 pivot_, velocity_;   // velocity is used by hold_station only
+  Vec2 pivot_, velocity_;  // velocity is used by hold_station only
   float heading_ = 0, turn_rad_s_ = 0, wander_rad_s_ = 0, until_wander_s_ = 0;
   float speed_ = 0.3f;
   bool bursting_ = false;

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/linux/gles_renderer.h"
+
+#include <GLES3/gl3.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+constexpr const char* kVertexShader = R"(#version 300 es
+layout(location = 0) in vec2 at;
+layout(location = 1) in vec2 uv;
+layout(location = 2) in float edge_px;
+layout(location = 3) in vec4 colour;
+uniform vec4 canvas;  // scale and offset from scene pixels to clip space
+out highp vec2 v_uv;
+out highp float v_edge;
+out mediump vec4 v_colour;
+void main() {
+  v_uv = uv;
+  v_edge = edge_px;
+  v_colour = vec4(colour.rgb * colour.a, colour.a);
+  gl_Position = vec4(at * canvas.xy + canvas.zw, 0.0, 1.0);
+}
+)";
+
+// A band or disc thinner than a display pixel is drawn one pixel wide and fainter, so that it does not break up.
+constexpr const char* kFragmentShader = R"(#version 300 es
+precision highp float;
+in vec2 v_uv;
+in float v_edge;
+in mediump vec4 v_colour;
+uniform int shape;
+uniform float scale;  // display pixels a scene pixel
+uniform sampler2D picture;
+out vec4 fragment;
+void main() {
+  if (shape == 0) {
+    fragment = texture(picture, v_uv) * v_colour;
+    return;
+  }
+  float distance_px = (shape == 1) ? abs(v_uv.x) : length(v_uv);
+  float cover = clamp((v_edge - distance_px) * scale + 0.5, 0.0, 1.0);
+  fragment = v_colour * min(cover, min(2.0 * v_edge * scale, 1.0));
+}
+)";
+
+unsigned compile(unsigned kind, const char* source) {
+  const unsigned shader = glCreateShader(kind);
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  int ok = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (ok == 0) throw UserError("OpenGL ES: this driver cannot compile GLSL ES 3.00 shaders; update it");
+  return shader;
+}
+
+unsigned link_program() {
+  const unsigned vertex = compile(GL_VERTEX_SHADER, kVertexShader);
+  const unsigned fragment = compile(GL_FRAGMENT_SHADER, kFragmentShader);
+  const unsigned program = glCreateProgram();
+  glAttachShader(program, vertex);
+  glAttachShader(program, fragment);
+  glLinkProgram(program);
+  glDeleteShader(vertex);
+  glDeleteShader(fragment);
+  int ok = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &ok);
+  if (ok == 0) throw UserError("OpenGL ES: this driver cannot link GLSL ES 3.00 shaders; update it");
+  return program;
+}
+
+struct GlFormat {
+  unsigned internal, external;
+  int bytes;
+};
+
+GlFormat gl_format(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::luma8: return {GL_R8, GL_RED, 1};
+    case PixelFormat::rgb8: return {GL_RGB8, GL_RGB, 3};
+    case PixelFormat::rgba8: break;
+  }
+  return {GL_RGBA8, GL_RGBA, 4};
+}
+
+void pack(const Colour& colour, uint8_t* rgba) {
+  const float channels[4] = {colour.r, colour.g, colour.b, colour.a};
+  for (int i = 0; i < 4; ++i) rgba[i] = static_cast<uint8_t>(std::lround(std::clamp(channels[i], 0.0f, 1.0f) * 255.0f));
+}
+
+bool drawable(const Picture& picture) { return picture.pixels != nullptr && picture.width > 0 && picture.height > 0; }
+
+// Half an edge's softness beyond the nominal edge, with a little to spare.
+float soft_margin(float scale) { return 1.0f / scale; }
+
+}  // namespace
+
+CanvasFit fit_canvas(int canvas_width, int canvas_height, int display_width, int display_height) {
+  CanvasFit fit;
+  if (canvas_width <= 0 || canvas_height <= 0 || display_width <= 0 || display_height <= 0) return fit;
+  fit.scale = std::min(static_cast<float>(display_width) / static_cast<float>(canvas_width),
+                       static_cast<float>(display_height) / static_cast<float>(canvas_height));
+  fit.width = std::max(1, static_cast<int>(std::lround(static_cast<float>(canvas_width) * fit.scale)));
+  fit.height = std::max(1, static_cast<int>(std::lround(static_cast<float>(canvas_height) * fit.scale)));
+  fit.x = (display_width - fit.width) / 2;
+  fit.y = (display_height - fit.height) / 2;
+  return fit;
+}
+
+GlesRenderer::GlesRenderer() : program_(link_program()) {
+  canvas_uniform_ = glGetUniformLocation(program_, "canvas");
+  shape_uniform_ = glGetUniformLocation(program_, "shape");
+  scale_uniform_ = glGetUniformLocation(program_, "scale");
+  glGenVertexArrays(1, &vertex_array_);
+  glBindVertexArray(vertex_array_);
+  glGenBuffers(1, &vertex_buffer_);
+  glGenBuffers(1, &index_buffer_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, index_buffer_);
+  const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
+  const int stride = sizeof(Vertex);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, at)));
+  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, uv)));
+  glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, edge_px)));
+  glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(offsetof(Vertex, rgba)));
+  for (unsigned i = 0; i < 4; ++i) glEnableVertexAttribArray(i);
+}
+
+GlesRenderer::~GlesRenderer() {
+  for (const Texture& texture : textures_) glDeleteTextures(1, &texture.handle);
+  glDeleteBuffers(1, &vertex_buffer_);
+  glDeleteBuffers(1, &index_buffer_);
+  glDeleteVertexArrays(1, &vertex_array_);
+  glDeleteProgram(program_);
+}
+
+std::string GlesRenderer::description() {
+  const auto text = [](unsigned name) {
+    const auto* value = reinterpret_cast<const char*>(glGetString(name));
+    return std::string(value != nullptr ? value : "unknown");
+  };
+  return text(GL_RENDERER) + ", " + text(GL_VERSION);
+}
+
+void GlesRenderer::draw(const Scene& scene, int display_width, int display_height, RowOrder rows) {
+  const CanvasFit fit = fit_canvas(scene.width(), scene.height(), display_width, display_height);
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, display_width, display_height);
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  if (fit.width == 0) return;
+  const bool top_down = rows == RowOrder::top_down;
+  const int y = top_down ? fit.y : display_height - fit.y - fit.height;
+  glViewport(fit.x, y, fit.width, fit.height);
+  glScissor(fit.x, y, fit.width, fit.height);
+  glEnable(GL_SCISSOR_TEST);
+  const Colour back = scene.background();
+  glClearColor(back.r, back.g, back.b, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+
+  build(scene, fit.scale);
+  upload_buffers();
+  glUseProgram(program_);
+  const float flip = top_down ? 1.0f : -1.0f;
+  glUniform4f(canvas_uniform_, 2.0f / static_cast<float>(scene.width()), flip * 2.0f / static_cast<float>(scene.height()),
+              -1.0f, -flip);
+  glUniform1f(scale_uniform_, fit.scale);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  for (const Batch& batch : batches_) {
+    if (batch.picture != nullptr) bind_texture(*batch.picture);
+    glUniform1i(shape_uniform_, static_cast<int>(batch.shape));
+    glDrawElements(GL_TRIANGLES, static_cast<int>(batch.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
+  }
+}
+
+void GlesRenderer::build(const Scene& scene, float scale) {
+  vertices_.clear();
+  indices_.clear();
+  batches_.clear();
+  for (const SceneItem& item : scene.items()) {
+    switch (item.kind) {
+      case ItemKind::image: add_image(item); break;
+      case ItemKind::mesh: add_mesh(item); break;
+      case ItemKind::lines: add_lines(item, scale); break;
+      case ItemKind::points: add_points(item, scale); break;
+    }
+    if (!batches_.empty()) batches_.back().count = indices_.size() - batches_.back().first;
+  }
+}
+
+void GlesRenderer::open_batch(Shape shape, const Picture* picture) {
+  if (picture == nullptr && !batches_.empty() && batches_.back().shape == shape) return;
+  batches_.push_back({shape, picture, indices_.size(), 0});
+}
+
+// Two triangles over four vertices in the order of a strip.
+void GlesRenderer::add_quad(uint32_t first_vertex) {
+  for (const uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first_vertex + corner);
+}
+
+void GlesRenderer::add_image(const SceneItem& item) {
+  if (!drawable(item.picture)) return;
+  open_batch(Shape::textured, &item.picture);
+  const auto first = static_cast<uint32_t>(vertices_.size());
+  Vertex vertex{};
+  pack(item.colour, vertex.rgba);
+  for (const Vec2 corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) {
+    vertex.at = {item.at.x + corner.x * item.size.x, item.at.y + corner.y * item.size.y};
+    vertex.uv = corner;
+    vertices_.push_back(vertex);
+  }
+  add_quad(first);
+}
+
+void GlesRenderer::add_mesh(const SceneItem& item) {
+  const std::size_t count = item.positions.size();
+  if (!drawable(item.picture) || count == 0 || item.texcoords.size() != count) return;
+  open_batch(Shape::textured, &item.picture);
+  const auto first = static_cast<uint32_t>(vertices_.size());
+  Vertex vertex{};
+  pack(item.colour, vertex.rgba);
+  for (std::size_t i = 0; i < count; ++i) {
+    vertex.at = item.positions[i];
+    vertex.uv = item.texcoords[i];
+    vertices_.push_back(vertex);
+  }
+  for (std::size_t i = 0; i + 2 < item.indices.size(); i += 3) {
+    const uint32_t a = item.indices[i], b = item.indices[i + 1], c = item.indices[i + 2];
+    if (std::max({a, b, c}) >= count) continue;  // the GPU must not read past the vertices
+    for (const uint32_t corner : {a, b, c}) indices_.push_back(first + corner);
+  }
+}
+
+// Points closer than half the thickness only make neighbouring joins overlap; the ends always stay.
+void GlesRenderer::simplify(const SceneItem& item) {
+  strip_.clear();
+  const float step = std::max(0.5f * item.width_px, 0.1f);
+  for (const Vec2 point : item.positions) {
+    if (strip_.empty() || length(point - strip_.back()) >= step) strip_.push_back(point);
+  }
+  if (strip_.empty()) return;
+  const Vec2 end = item.closed ? item.positions.front() : item.positions.back();
+  if (strip_.size() > 1 && length(end - strip_.back()) < step) strip_.pop_back();
+  if (strip_.size() > 1 || length(end - strip_.back()) > 0) strip_.push_back(end);
+}
+
+// One mitred band: a pair of vertices at each point, a second pair where the turn is too sharp for a mitre.
+void GlesRenderer::add_lines(const SceneItem& item, float scale) {
+  simplify(item);
+  const std::size_t count = strip_.size();
+  if (count < 2 || item.width_px <= 0) return;
+  open_batch(Shape::band, nullptr);
+  const float half = 0.5f * item.width_px;
+  const float reach = std::max(half, 0.5f / scale) + soft_margin(scale);
+  Vertex vertex{};
+  pack(item.colour, vertex.rgba);
+  vertex.edge_px = half;
+  const auto add_pair = [&](Vec2 at, Vec2 across) {
+    for (const float side : {-1.0f, 1.0f}) {
+      vertex.at = at + side * reach * across;
+      vertex.uv = {side * reach, 0};
+      vertices_.push_back(vertex);
+    }
+  };
+  const auto first = static_cast<uint32_t>(vertices_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool end = i == 0 || i + 1 == count;
+    const std::size_t before = i > 0 ? i - 1 : (item.closed ? count - 2 : 0);
+    const std::size_t after = i + 1 < count ? i + 1 : (item.closed ? 1 : i);
+    const Vec2 in = end && !item.closed && i == 0 ? normalised(strip_[1] - strip_[0]) : normalised(strip_[i] - strip_[before]);
+    const Vec2 out = end && !item.closed && i > 0 ? in : normalised(strip_[after] - strip_[i]);
+    const Vec2 sum = right_of(in) + right_of(out);
+    const float squared = length_sq(sum);  // 4 cos^2 of half the turn
+    if (squared > 1.0f) {
+      add_pair(strip_[i], sum * (2.0f / squared));
+    } else {
+      add_pair(strip_[i], right_of(in));
+      add_pair(strip_[i], right_of(out));
+    }
+  }
+  for (uint32_t v = first; v + 3 < vertices_.size(); v += 2) add_quad(v);
+}
+
+void GlesRenderer::add_points(const SceneItem& item, float scale) {
+  if (item.positions.empty() || item.width_px <= 0) return;
+  open_batch(Shape::disc, nullptr);
+  const float radius = 0.5f * item.width_px;
+  const float reach = std::max(radius, 0.5f / scale) + soft_margin(scale);
+  Vertex vertex{};
+  pack(item.colour, vertex.rgba);
+  vertex.edge_px = radius;
+  for (const Vec2 centre : item.positions) {
+    const auto first = static_cast<uint32_t>(vertices_.size());
+    for (const Vec2 corner : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
+      vertex.uv = corner * reach;
+      vertex.at = centre + vertex.uv;
+      vertices_.push_back(vertex);
+    }
+    add_quad(first);
+  }
+}
+
+// A buffer is given up to the driver before it is written again, so that a frame still being drawn does not stall us.
+void GlesRenderer::upload_buffers() {
+  const auto stream = [](unsigned target, std::size_t& capacity, std::size_t bytes, const void* data) {
+    capacity = std::max(capacity, bytes);
+    glBufferData(target, static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
+    glBufferSubData(target, 0, static_cast<GLsizeiptr>(bytes), data);
+  };
+  if (vertices_.empty()) return;
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_);
+  stream(GL_ARRAY_BUFFER, vertex_bytes_, vertices_.size() * sizeof(Vertex), vertices_.data());
+  stream(GL_ELEMENT_ARRAY_BUFFER, index_bytes_, indices_.size() * sizeof(uint32_t), indices_.data());
+}
+
+GlesRenderer::Texture& GlesRenderer::slot(uint32_t id) {
+  for (Texture& texture : textures_) {
+    if (texture.id == id) return texture;
+  }
+  textures_.push_back({id, 0, 0, 0, PixelFormat::luma8, 0});
+  glGenTextures(1, &textures_.back().handle);
+  return textures_.back();
+}
+
+void GlesRenderer::bind_texture(const Picture& picture) {
+  Texture& texture = slot(picture.id);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture.handle);
+  const bool fresh = texture.width != picture.width || texture.height != picture.height || texture.format != picture.format;
+  if (!fresh && texture.revision == picture.revision) return;
+  upload(picture, fresh);
+  texture.width = picture.width, texture.height = picture.height;
+  texture.format = picture.format, texture.revision = picture.revision;
+}
+
+// Drawings (rgba8) are premultiplied, and get mipmaps because they are shown smaller than they are and rarely change;
+// camera frames (luma8, rgb8) change every time and are shown near their own size.
+void GlesRenderer::upload(const Picture& picture, bool fresh) {
+  const GlFormat format = gl_format(picture.format);
+  const bool drawing = picture.format == PixelFormat::rgba8;
+  if (fresh) {
+    int largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (picture.width > largest || picture.height > largest) {
+      throw UserError("a picture of " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
+                      " pixels is larger than this GPU can show (" + std::to_string(largest) + "); make it smaller");
+    }
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<int>(format.internal), picture.width, picture.height, 0, format.external,
+                 GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, drawing ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    const int green_blue = picture.format == PixelFormat::luma8 ? GL_RED : 0;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, green_blue != 0 ? green_blue : GL_GREEN);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, green_blue != 0 ? green_blue : GL_BLUE);
+  }
+  // Rows are packed here: the stride need not be a whole number of pixels, which GL_UNPACK_ROW_LENGTH would ask for.
+  const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(format.bytes);
+  staging_.resize(row_bytes * static_cast<std::size_t>(picture.height));
+  for (int y = 0; y < picture.height; ++y) {
+    const uint8_t* from = picture.pixels + static_cast<std::ptrdiff_t>(y) * picture.stride;
+    uint8_t* to = staging_.data() + static_cast<std::size_t>(y) * row_bytes;
+    std::copy_n(from, row_bytes, to);
+    if (!drawing) continue;
+    for (std::size_t i = 0; i < row_bytes; i += 4) {
+      for (std::size_t k = 0; k < 3; ++k) to[i + k] = static_cast<uint8_t>((to[i + k] * to[i + 3] + 127) / 255);
+    }
+  }
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, format.external, GL_UNSIGNED_BYTE, staging_.data());
+  if (drawing) glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+}  // namespace nt

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window, on SDL's driver without a screen: same picture as off-screen, and events in scene pixels.
+#include <GLES3/gl3.h>
+#include <SDL2/SDL.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "tests/platform/test_scene.h"
+
+namespace nt {
+namespace {
+
+class SdlDisplayTest : public ::testing::Test {
+ protected:
+  void open(int width, int height) {
+    setenv("SDL_VIDEODRIVER", "offscreen", 1);
+    try {
+      display_ = open_sdl_display("test", width, height);
+    } catch (const UserError& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  void TearDown() override { unsetenv("SDL_VIDEODRIVER"); }
+
+  static void push_click(int x, int y) {
+    SDL_Event event{};
+    event.type = SDL_MOUSEBUTTONDOWN;
+    event.button.button = SDL_BUTTON_LEFT;
+    event.button.x = x;
+    event.button.y = y;
+    SDL_PushEvent(&event);
+  }
+  static void push_key(SDL_Keycode key) {
+    SDL_Event event{};
+    event.type = SDL_KEYDOWN;
+    event.key.keysym.sym = key;
+    SDL_PushEvent(&event);
+  }
+
+  std::unique_ptr<Display> display_;
+};
+
+TEST_F(SdlDisplayTest, DrawsWhatTheHeadlessDisplayDraws) {
+  open(kTestWidth, kTestHeight);
+  if (!display_) return;
+  const TestScene test;
+  display_->draw(test.scene);
+  EXPECT_TRUE(display_->pixels().empty());
+  // The offscreen driver's surface is not swapped away: the context that draw() left current still holds the picture.
+  std::vector<uint8_t> window(static_cast<std::size_t>(kTestWidth * kTestHeight * 4));
+  glReadPixels(0, 0, kTestWidth, kTestHeight, GL_RGBA, GL_UNSIGNED_BYTE, window.data());
+
+  std::unique_ptr<Display> headless;
+  try {
+    headless = open_headless_display(kTestWidth, kTestHeight);
+  } catch (const UserError& error) {
+    GTEST_SKIP() << error.what();
+  }
+  headless->draw(test.scene);
+  const auto shot = headless->pixels();
+  int different = 0, coloured = 0;
+  for (int y = 0; y < kTestHeight; ++y) {
+    for (int x = 0; x < kTestWidth; ++x) {
+      const Rgb want = pixel(shot, kTestWidth, x, y);
+      const std::size_t at = static_cast<std::size_t>((kTestHeight - 1 - y) * kTestWidth + x) * 4;
+      different += near_colour({window[at], window[at + 1], window[at + 2]}, want, 1) ? 0 : 1;
+      coloured += near_colour(want, {51, 51, 51}, 1) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(different, 0);
+  EXPECT_GT(coloured, 3000);
+}
+
+TEST_F(SdlDisplayTest, ClicksAreScenePixelsAndBarsAreNotTheScene) {
+  open(400, 200);
+  if (!display_) return;
+  Scene scene;
+  scene.clear(50, 50, {});
+  display_->draw(scene);  // drawn at scale 4, from x = 100 to 300
+  std::vector<InputEvent> events;
+  display_->poll(events);
+  push_click(50, 100);
+  push_click(100, 0);
+  push_click(200, 100);
+  push_click(310, 100);
+  display_->poll(events);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, InputEvent::Kind::click);
+  EXPECT_FLOAT_EQ(events[0].at.x, 0);
+  EXPECT_FLOAT_EQ(events[0].at.y, 0);
+  EXPECT_FLOAT_EQ(events[1].at.x, 25);
+  EXPECT_FLOAT_EQ(events[1].at.y, 25);
+}
+
+TEST_F(SdlDisplayTest, KeysAndQuit) {
+  open(64, 64);
+  if (!display_) return;
+  std::vector<InputEvent> events;
+  display_->poll(events);
+  push_key(SDLK_p);
+  push_key(SDLK_F5);
+  push_key(SDLK_ESCAPE);
+  SDL_Event quit{};
+  quit.type = SDL_QUIT;
+  SDL_PushEvent(&quit);
+  display_->poll(events);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].kind, InputEvent::Kind::key);
+  EXPECT_EQ(events[0].key, 'p');
+  EXPECT_EQ(events[1].key, 27);
+  EXPECT_EQ(events[2].kind, InputEvent::Kind::quit);
+}
+
+[[noreturn]] void open_without_display() {
+  for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) unsetenv(variable);
+  setenv("SDL_VIDEODRIVER", "x11", 1);
+  try {
+    open_sdl_display("test", 64, 64);
+  } catch (const UserError& error) {
+    std::cerr << error.what() << std::endl;
+    std::_Exit(error.exit_code);
+  }
+  std::_Exit(0);
+}
+
+TEST(SdlDisplayDeathTest, WithoutADisplaySaysSoInOneLine) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(open_without_display(), ::testing::ExitedWithCode(1), "^no window: there is no display [^\n]*\n$");
+}
+
+}  // namespace
+}  // namespace nt

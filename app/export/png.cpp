@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/export/png.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "app/export/output_file.h"
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+cv::Mat as_opencv(const Picture& picture) {
+  const int channels = picture.format == PixelFormat::luma8 ? 1 : (picture.format == PixelFormat::rgb8 ? 3 : 4);
+  // OpenCV's matrix takes no const pixels; they are only read.
+  const cv::Mat pixels(picture.height, picture.width, CV_8UC(channels), const_cast<uint8_t*>(picture.pixels),
+                       static_cast<std::size_t>(picture.stride));
+  if (channels == 1) return pixels;
+  cv::Mat swapped;
+  cv::cvtColor(pixels, swapped, channels == 3 ? cv::COLOR_RGB2BGR : cv::COLOR_RGBA2BGRA);
+  return swapped;
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const Picture& picture) {
+  if (picture.pixels == nullptr || picture.width <= 0 || picture.height <= 0) {
+    throw UserError("cannot write " + path + ": there is no picture to write");
+  }
+  std::vector<uint8_t> bytes;
+  if (!cv::imencode(".png", as_opencv(picture), bytes)) throw UserError("cannot write " + path + ": OpenCV here has no PNG encoder");
+  OutputFile file(path);
+  const bool complete = file.write_at(0, bytes);
+  if (!file.close() || !complete) throw UserError(file.error_line() + "; the picture is cut");
+}
+
+}  // namespace nt

@@ -143,6 +143,21 @@ TEST(Tank, LumaOfTheColourIsTheLuma) {
     }
 }
 
+TEST(Tank, TheFishIsOrange) {
+  Tank tank({.width = 480, .height = 272});
+  render(tank, 100);
+  const auto rgb = tank.rgb();
+  const TankTruth& truth = tank.truth(true);
+  double sum[3] = {0, 0, 0}, count = 0;
+  for (std::size_t i = 0; i < truth.mask.size(); ++i) {
+    if (truth.mask[i] == 0) continue;
+    for (int c = 0; c < 3; ++c) sum[c] += rgb[3 * i + c];
+    count += 1;
+  }
+  EXPECT_GT(sum[0], sum[1] + 40 * count);
+  EXPECT_GT(sum[1], sum[2] + 60 * count);
+}
+
 TEST(Tank, CalmStaysInTheFrameMovesSmoothlyAndUsesItsFins) {
   for (uint64_t seed : {1, 2, 3}) {
     Tank tank({.seed = seed, .width = 480, .height = 272});

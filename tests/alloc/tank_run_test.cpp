@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// After frame 0 core allocates nothing: malloc and its kin are interposed and counted around every step.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "platform/linux/heap_count.h"
+#include "tests/support/tank_run.h"
+
+namespace {
+
+int64_t allocations_after_frame_0(const nt::TankSettings& settings, int frames, int& poses) {
+  nt::test::TankRun run(settings);
+  run.film();
+  run.step();
+  int64_t sum = 0;
+  for (int n = 1; n < frames; ++n) {
+    run.film();
+    const nt::HeapCount heap;
+    run.step();
+    sum += heap.allocations();
+  }
+  poses = run.poses();
+  return sum;
+}
+
+}  // namespace
+
+TEST(Alloc, TheCounterSeesAnAllocation) {
+  ASSERT_TRUE(nt::heap_count_available());
+  const nt::HeapCount heap;
+  const auto number = std::make_unique<volatile int>(1);
+  EXPECT_EQ(*number, 1);
+  EXPECT_EQ(heap.allocations(), 1);
+}
+
+TEST(Alloc, NoneInTenThousandFrames) {
+  int poses = 0;
+  EXPECT_EQ(allocations_after_frame_0({.width = 320, .height = 180}, 10000, poses), 0);
+  EXPECT_GT(poses, 5000) << "most frames must have gone through every stage";
+}
+
+TEST(Alloc, NoneAtTheDefaultSize) {
+  int poses = 0;
+  EXPECT_EQ(allocations_after_frame_0({}, 500, poses), 0);
+  EXPECT_GT(poses, 250);
+}

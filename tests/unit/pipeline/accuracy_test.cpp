@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The accuracy that is promised, pinned on short runs; bench_accuracy measures the long ones. A ratchet: it may only improve.
+#include "tests/bench/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+using nt::test::Accuracy;
+using nt::test::quantile;
+
+class AccuracyTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(AccuracyTest, KeepsItsPromise) {
+  Accuracy sum;
+  for (const uint64_t seed : {1, 2, 3}) {
+    nt::test::AccuracyRun run;
+    run.tank.scene = GetParam();
+    run.tank.seed = seed;
+    run.frames = 400;
+    sum.add(nt::test::measure_accuracy(run));
+  }
+  ASSERT_GT(sum.visible, 400);
+  EXPECT_GE(sum.pose_share(), 0.95);
+  EXPECT_EQ(sum.wrong_end, 0);
+  EXPECT_LE(quantile(sum.head, 0.5), 1.5);
+  EXPECT_LE(quantile(sum.tail, 0.5), 4.0);
+  EXPECT_LE(quantile(sum.midline, 0.5), 1.0);
+  EXPECT_LE(quantile(sum.fin_tip, 0.5), 4.0);
+  EXPECT_LE(quantile(sum.direction, 0.5), 2.0);
+  EXPECT_GE(sum.fin_recall(), 0.8);
+  EXPECT_GE(sum.fin_precision(), 0.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest, testing::Values("calm", "turns", "hover", "forked", "round"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace

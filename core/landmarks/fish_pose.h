@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 
+#include "core/base/pose_status.h"
 #include "core/base/vec2.h"
 
 namespace nt {
@@ -13,14 +14,6 @@ namespace nt {
 inline constexpr int kMaxUpAxis = 8;    // room for u_num; [F] section 7 uses 3
 inline constexpr int kMaxLowAxis = 32;  // room for l_num; [F] uses 15, and 25 for its flower
 
-enum class PoseStatus : uint8_t {
-  ok,        // a pose
-  partial,   // the fish touches the frame's edge: no pose
-  occluded,  // merged with another blob, or closed into a ring: no pose
-  absent,    // no fish has been selected, or none is there to select
-  lost,      // the fish that was tracked is not found
-  relearn,   // the background is being learned: masks mean nothing yet
-};
 const char* to_string(PoseStatus status);
 
 // Confidences in [0, 1], one per landmark group; 0 = not seen.

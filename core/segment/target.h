@@ -12,7 +12,8 @@
 #include <span>
 
 #include "core/base/arena.h"
-#include "core/landmarks/fish_pose.h"
+#include "core/base/pose_status.h"
+#include "core/base/vec2.h"
 #include "core/segment/blobs.h"
 
 namespace nt {

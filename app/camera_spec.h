@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The SPEC of --camera: text -> which camera, and the camera itself.
+//
+//   sim[:scene=NAME][,seed=N][,size=WxH][,fps=N][,frames=N]   the simulated tank, 960x544 at 30 frames a second
+//   file:PATH                                                 a video or an image sequence; a bare path works too
+// Anything else throws UserError that names what exists and the nearest valid name: exit code 2, or 3 for a file that
+// is not there.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/numbers.h"
+#include "platform/camera.h"
+#include "platform/sim/tank.h"
+
+namespace nt {
+
+struct CameraSpec {
+  enum class Kind : uint8_t { sim, file } kind = Kind::sim;
+  TankSettings tank;      // sim
+  int64_t frames = -1;    // sim: where it ends; -1 = never
+  std::string path;       // file
+};
+
+CameraSpec parse_camera_spec(const std::string& text);
+
+inline constexpr Size kDefaultWork{960, 544};
+
+// `work` is the largest frame handed out; the tank is made at its own size, so asking it for a smaller one is an error.
+// `fps` above 0 overrides the source's frame rate.
+std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps);
+
+}  // namespace nt

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// neontetra bench: how long each stage takes on this machine, filming the simulated tank on one thread.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "app/actor.h"
+#include "app/cli.h"
+#include "app/export/report.h"
+#include "app/session.h"
+#include "app/text_file.h"
+#include "core/base/simd_target.h"
+#include "platform/linux/clock.h"
+
+namespace nt {
+namespace {
+
+struct Options {
+  int64_t frames = 300;
+  std::string size = "960x544";
+  std::string background = "vibe";
+  std::string character;
+  bool json = false;
+};
+
+CaptureOptions tank_options(const Options& options) {
+  CaptureOptions capture;
+  capture.camera = parse_camera_spec("sim:size=" + options.size);
+  capture.frames = options.frames;
+  capture.background = parse_background(options.background);
+  return capture;
+}
+
+std::string row(const char* name, const TimeHistogram& times) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%-12s %10.1f %10.1f\n", name, times.quantile_ns(0.5) * 1e-3,
+                times.quantile_ns(0.99) * 1e-3);
+  return text;
+}
+
+std::string table(Session& session, const TimeHistogram& retarget, double fps) {
+  const Statistics& statistics = session.statistics();
+  const CameraInfo& info = session.info();
+  std::string text = info.name + ", " + std::to_string(info.width) + "x" + std::to_string(info.height) + ", " +
+                     std::to_string(statistics.frames) + " frames, background " + session.capture().background_name() +
+                     ", " + simd_target() + ", one thread\n";
+  text += "stage         median us     p99 us\n";
+  for (std::size_t s = 0; s < kStages; ++s) text += row(kStageNames[s], statistics.stages[s]);
+  text += row("capture", statistics.total);
+  if (retarget.count() > 0) text += row("retarget", retarget);
+  char line[80];
+  std::snprintf(line, sizeof line, "that is %.0f frames a second without camera and display\n", fps);
+  return text + line;
+}
+
+void bench(const Options& options) {
+  Session session(tank_options(options));
+  std::unique_ptr<Actor> actor;
+  if (!options.character.empty()) actor = std::make_unique<Actor>(options.character);
+  const Pane pane = pane_for(session.info().width, session.info().height);
+  TimeHistogram retarget;
+  while (session.step()) {
+    if (actor == nullptr || session.report().status != PoseStatus::ok) continue;
+    actor->see(session);
+    const int64_t before_ns = steady_now_ns();
+    actor->pose(1, static_cast<float>(1 / session.info().fps), pane);
+    retarget.add(steady_now_ns() - before_ns);
+  }
+  const double frame_ns = session.statistics().total.quantile_ns(0.5) + retarget.quantile_ns(0.5);
+  const double fps = frame_ns > 0 ? 1e9 / frame_ns : 0;
+  if (!options.json) {
+    write_text("-", table(session, retarget, fps));
+    return;
+  }
+  Json json = report_json(session);
+  json["retarget_us"] = retarget.count() > 0 ? Json(retarget.quantile_ns(0.5) * 1e-3) : Json(nullptr);
+  json["frames_a_second"] = fps;
+  write_text("-", pretty(json));
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("bench", "Time every stage on the simulated tank");
+  auto options = std::make_shared<Options>();
+  command->add_option("--frames", options->frames, "how many (default 300)")->type_name("N")->check(CLI::Range(2, 1000000));
+  command->add_option("--work-size", options->size, "frame size (default 960x544)")->type_name("WxH");
+  command->add_option("--background", options->background, "vibe, still or backlit (default vibe)")->type_name("MODEL");
+  command->add_option("--character", options->character, "also time how long it takes to pose this one")->type_name("FILE");
+  command->add_flag("--json", options->json, "as JSON");
+  command->footer("Example: neontetra bench --character carp.ntchar");
+  command->callback([&action, options] { action = [options] { bench(*options); }; });
+}
+
+}  // namespace nt

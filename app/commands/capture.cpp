@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// neontetra capture: no window; poses to CSV, overlay video, report.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/cli.h"
+#include "app/export/film.h"
+#include "app/export/pose_csv.h"
+#include "app/export/report.h"
+#include "app/progress.h"
+#include "app/session.h"
+#include "app/ui/overlay.h"
+#include "platform/sim/sim_camera.h"
+
+namespace nt {
+namespace {
+
+struct Options {
+  CaptureOptions capture;
+  std::string csv, truth, overlay, json, contact_sheet;
+};
+
+SimCamera& simulated(Session& session) {
+  auto* sim = dynamic_cast<SimCamera*>(&session.camera());
+  if (sim == nullptr) throw UserError("--truth: only the simulated tank knows the truth; use --camera sim", 2);
+  return *sim;
+}
+
+void add_truth(PoseCsv& truth, Session& session) {
+  const TankTruth& known = *simulated(session).truth();
+  FishPose pose = known.pose;
+  if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
+  truth.add(session.frame_index(), session.frame().timestamp_ns, pose);
+}
+
+void capture(const Options& options) {
+  Session session(options.capture);
+  std::optional<PoseCsv> csv, truth;
+  if (!options.csv.empty()) csv.emplace(options.csv, session.scale());
+  if (!options.truth.empty()) {
+    simulated(session);
+    truth.emplace(options.truth, session.scale());
+  }
+  const Pane pane = pane_for(session.info().width, session.info().height);
+  Film film(options.overlay, options.contact_sheet, pane.width, pane.height, session.info().fps);
+  Overlay overlay(pane);
+  Scene scene;
+  {
+    Progress progress(session.info().frame_count);
+    while (session.step()) {
+      if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
+      if (truth) add_truth(*truth, session);
+      if (film.wanted()) {
+        overlay.update(session);
+        scene.clear(pane.width, pane.height, {0, 0, 0, 1});
+        overlay.draw(scene);
+        film.add(scene);
+      }
+      progress.show(session.statistics().frames);
+    }
+  }
+  expect_frames(session);
+  if (csv) csv->close();
+  if (truth) truth->close();
+  film.finish();
+  if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
+  std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
+}
+
+}  // namespace
+
+void add_capture(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("capture", "Film without a window: poses to CSV, overlay video, report");
+  auto options = std::make_shared<Options>();
+  add_capture_options(*command, options->capture);
+  command->add_option("--csv", options->csv, "one row of pose a frame ('-' = standard output)")->type_name("FILE");
+  command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")->type_name("FILE.mp4");
+  command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");
+  command->add_option("--truth", options->truth, "the tank's truth in the CSV's columns (sim only)")->type_name("FILE");
+  command->add_option("--contact-sheet", options->contact_sheet, "twelve frames of the overlay in one picture")
+      ->type_name("FILE.png");
+  command->footer("Example: neontetra capture -c trout.avi --csv trout.csv --overlay trout.mp4 --json -");
+  command->callback([&action, options] { action = [options] { capture(*options); }; });
+}
+
+}  // namespace nt

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// neontetra doctor: what this machine has, what is missing and what to do about it.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <opencv2/core/version.hpp>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavutil/avutil.h>
+}
+
+#include "app/cli.h"
+#include "app/export/report.h"
+#include "app/session.h"
+#include "app/text_file.h"
+#include "app/ui/window.h"
+#include "core/base/simd_target.h"
+#include "core/pipeline/pipeline.h"
+#include "platform/display.h"
+
+namespace nt {
+namespace {
+
+constexpr std::size_t kMemoryBudget = 16'000'000;  // at 960x544, ViBe
+constexpr int64_t kTrialFrames = 60;               // of the tank, to fill the high-water marks
+
+struct Finding {
+  const char* key;     // in the JSON
+  std::string value;
+  bool good = true;
+  std::string advice;  // when it is not
+};
+
+Finding simd() {
+  const std::string target = simd_target();
+  const bool good = target != "SCALAR" && target != "EMU128";
+  return {"simd", target, good, "built without SIMD: configure with -march=x86-64-v2 or better, or with NEON"};
+}
+
+Finding off_screen() {
+  try {
+    const std::unique_ptr<Display> display = open_headless_display(64, 64);
+    return {"off_screen_renderer", display->name() + ", " + display->renderer(), true, ""};
+  } catch (const UserError& error) {
+    return {"off_screen_renderer", "none", false, error.what()};
+  }
+}
+
+Finding window() {
+  try {
+    const std::unique_ptr<Display> display = open_window("neontetra doctor", 64, 64);
+    return {"window", display->name() + ", " + display->renderer(), true, ""};
+  } catch (const UserError& error) {
+    return {"window", "none", false, std::string(error.what()) + " (only 'live' needs one)"};
+  }
+}
+
+Finding h264() {
+  const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_H264);
+  if (codec != nullptr) return {"h264_encoder", codec->name, true, ""};
+  return {"h264_encoder", "none", false, "videos are written as MPEG-4; for H.264 install libavcodec-extra"};
+}
+
+Finding memory() {
+  const Limits limits;
+  const std::size_t bytes = Capture::bytes_needed(limits, CaptureSettings{});
+  char text[160];
+  std::snprintf(text, sizeof text, "%.2f MB at %dx%d (max_runs %d, max_blobs %d, max_contour_points %d)",
+                static_cast<double>(bytes) * 1e-6, limits.max_width, limits.max_height, limits.max_runs, limits.max_blobs,
+                limits.max_contour_points);
+  return {"core_memory", text, bytes <= kMemoryBudget, "more than 16 MB: lower the limits in core/base/limits.h"};
+}
+
+Finding trial() {
+  CaptureOptions options;
+  options.frames = kTrialFrames;
+  options.background.kind = BackgroundOption::Kind::vibe;
+  Session session(options);
+  while (session.step()) {
+  }
+  const Statistics& statistics = session.statistics();
+  char text[160];
+  std::snprintf(text, sizeof text, "%s; at most %d of %d contour points, %d of %d blobs; %lld allocations after frame 0",
+                summary_line(statistics).c_str(), session.capture().contour_points_high_water(),
+                Limits{}.max_contour_points, statistics.most_blobs, Limits{}.max_blobs,
+                static_cast<long long>(statistics.allocations_after_frame_0));
+  return {"trial_run", text, statistics.allocations_after_frame_0 == 0, "core allocated memory while running: report this"};
+}
+
+std::vector<Finding> look() {
+  return {{"version", "neontetra " NEONTETRA_VERSION, true, ""},
+          {"libraries", std::string("OpenCV ") + CV_VERSION + ", FFmpeg " + av_version_info(), true, ""},
+          simd(),
+          off_screen(),
+          window(),
+          h264(),
+          memory(),
+          trial()};
+}
+
+void doctor(bool json) {
+  const std::vector<Finding> findings = look();
+  Json report = {{"format", kReportFormat}};
+  std::string text;
+  for (const Finding& finding : findings) {
+    report[finding.key] = {{"value", finding.value}, {"good", finding.good}};
+    std::string name = finding.key;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    name.resize(20, ' ');
+    text += (finding.good ? "ok  " : "!!  ") + name + finding.value + "\n";
+    if (finding.good) continue;
+    report[finding.key]["advice"] = finding.advice;
+    text += "    " + std::string(20, ' ') + finding.advice + "\n";
+  }
+  report["core_memory"]["bytes"] = Capture::bytes_needed(Limits{}, CaptureSettings{});
+  write_text("-", json ? pretty(report) : text);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("doctor", "Say what this machine has, what is missing and what to do");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "as JSON");
+  command->footer("Example: neontetra doctor");
+  command->callback([&action, json] { action = [json] { doctor(*json); }; });
+}
+
+}  // namespace nt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses as comma-separated values, one row a frame; the columns are documented in docs/FORMATS.md.
+//
+// Points are in pixels of the source video, y down; empty where they were not seen. dir_rad is kept continuous from row
+// to row. The tank's truth is written by the same code, so the two files compare column by column.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "app/text_file.h"
+#include "core/landmarks/fish_pose.h"
+
+namespace nt {
+
+std::string pose_csv_header(int u_num, int l_num);
+
+// Working pixels -> pixels of the source video: both count from the first pixel's centre.
+inline Vec2 to_source(Vec2 p, float scale) { return {(p.x + 0.5f) * scale - 0.5f, (p.y + 0.5f) * scale - 0.5f}; }
+inline Vec2 to_working(Vec2 p, float scale) { return {(p.x + 0.5f) / scale - 0.5f, (p.y + 0.5f) / scale - 0.5f}; }
+
+class PoseCsv {
+ public:
+  // `scale` = source width / working width.
+  PoseCsv(const std::string& path, float scale, int u_num = 3, int l_num = 15);
+  void add(int64_t frame, int64_t time_ns, const FishPose& pose);
+  void close() { file_.close(); }
+
+ private:
+  TextFile file_;
+  float scale_;
+  float last_dir_rad_ = 0;
+  std::string row_;
+};
+
+}  // namespace nt

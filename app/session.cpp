@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/session.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app/author/choose_background.h"
+#include "app/export/pose_csv.h"
+#include "platform/linux/clock.h"
+#include "platform/linux/heap_count.h"
+
+namespace nt {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+constexpr int kSmallestSide = 32;         // an outline needs some 16 points
+
+Frame frame_of(const cv::Mat& luma) {
+  Frame frame;
+  frame.luma = {luma.data, luma.cols, luma.rows, static_cast<std::ptrdiff_t>(luma.step)};
+  return frame;
+}
+
+cv::Mat read_tank_picture(const std::string& path, const CameraInfo& info) {
+  const cv::Mat picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  if (picture.empty()) throw UserError("--background still: cannot read the picture " + path);
+  cv::Mat fitted;
+  cv::resize(picture, fitted, {info.width, info.height}, 0, 0, cv::INTER_AREA);
+  return fitted;
+}
+
+const char* model_name(BackgroundKind kind) {
+  constexpr const char* kNames[] = {"vibe", "still", "backlit"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+bool interrupted() { return stop_asked != 0; }
+
+void end_on_interrupt() {
+  std::signal(SIGINT, [](int) { stop_asked = 1; });
+  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+}
+
+Session::Session(const CaptureOptions& options)
+    : camera_(open_camera(options.camera, options.work, options.fps)), frames_wanted_(options.frames) {
+  if (info().width < kSmallestSide || info().height < kSmallestSide) {
+    throw UserError(info().name + ": frames of " + std::to_string(info().width) + "x" + std::to_string(info().height) +
+                    " pixels are too small; at least 32x32 are needed to see a fish");
+  }
+  const BackgroundKind kind = choose_model(options);
+  create_capture(options, kind);
+  learn(options, kind);
+  if (!options.select.automatic) capture_->select_at(to_working(options.select.at, scale()));
+}
+
+BackgroundKind Session::choose_model(const CaptureOptions& options) {
+  using Kind = BackgroundOption::Kind;
+  why_ = "asked for";
+  switch (options.background.kind) {
+    case Kind::vibe: return BackgroundKind::vibe;
+    case Kind::still: return BackgroundKind::still;
+    case Kind::backlit: return BackgroundKind::backlit;
+    case Kind::automatic: break;
+  }
+  const BackgroundChoice choice = choose_background(spread_frames(*camera_));
+  why_ = choice.why;
+  std::fprintf(stderr, "background: %s (%s)\n", model_name(choice.kind), why_.c_str());
+  return choice.kind;
+}
+
+void Session::create_capture(const CaptureOptions& options, BackgroundKind kind) {
+  Limits limits;
+  limits.max_width = info().width;
+  limits.max_height = info().height;
+  CaptureSettings settings;
+  settings.background.kind = kind;
+  settings.harmonics = options.harmonics;
+  settings.seed = options.seed;
+  memory_ = AlignedBlock(Capture::bytes_needed(limits, settings));
+  Result<Capture*> made = Capture::create(memory_.bytes(), limits, settings, info().width, info().height);
+  if (!made.ok()) throw UserError(info().name + ": " + made.status().message);
+  capture_ = made.value();
+}
+
+void Session::learn(const CaptureOptions& options, BackgroundKind kind) {
+  if (kind != BackgroundKind::still) return;
+  if (!options.background.picture.empty()) {
+    capture_->learn(frame_of(read_tank_picture(options.background.picture, info())));
+  } else {
+    const std::vector<cv::Mat> frames = spread_frames(*camera_);
+    const std::size_t count = std::min<std::size_t>(kLearnFrames, frames.size());
+    for (std::size_t i = 0; i < count; ++i) capture_->learn(frame_of(frames[i * frames.size() / count]));
+  }
+}
+
+float Session::scale() const {
+  return static_cast<float>(info().source_width) / static_cast<float>(info().width);
+}
+
+void Session::count_gap(const Frame& frame) {
+  if (statistics_.frames == 0 || frame.sequence <= frame_.sequence + 1) return;
+  statistics_.dropped += static_cast<int64_t>(frame.sequence - frame_.sequence - 1);
+}
+
+bool Session::step() {
+  if (interrupted() || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
+  const std::optional<Frame> next = camera_->next();
+  if (!next) return false;
+  count_gap(*next);
+  frame_ = *next;
+  {
+    const HeapCount heap;
+    report_ = capture_->step(frame_, &steady_now_ns);
+    if (statistics_.frames > 0) statistics_.allocations_after_frame_0 += heap.allocations();
+  }
+  statistics_.add(report_);
+  return true;
+}
+
+void expect_frames(const Session& session) {
+  if (session.statistics().frames == 0 && !interrupted()) {
+    throw UserError(session.info().name + ": there is not one frame in it; is the video complete?");
+  }
+}
+
+}  // namespace nt

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera and the capture that watches it: what live, capture, animate and bench have in common.
+//
+// Opens the camera, chooses the background, cuts core's memory, then hands out one step a frame and keeps count.
+// Frame of reference: pixels of the working frame; `scale()` leads back to the source video.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "app/aligned_block.h"
+#include "app/options.h"
+#include "app/statistics.h"
+#include "core/pipeline/pipeline.h"
+#include "platform/camera.h"
+
+namespace nt {
+
+class Session {
+ public:
+  // Throws UserError: no camera, a picture that cannot be read, frames too small. Says on stderr which background `auto`
+  // has chosen.
+  explicit Session(const CaptureOptions& options);
+
+  // The next frame goes through capture; false at the end of the video or of --frames, or when the user interrupts.
+  bool step();
+  // Passes a frame over; the next step counts it as dropped. False at the end.
+  bool skip() { return camera_->next().has_value(); }
+
+  Camera& camera() { return *camera_; }
+  Capture& capture() { return *capture_; }
+  const Frame& frame() const { return frame_; }          // of the last step
+  const StepReport& report() const { return report_; }   // of the last step
+  const Statistics& statistics() const { return statistics_; }
+  const CameraInfo& info() const { return camera_->info(); }
+  float scale() const;  // source width / working width
+  int64_t frame_index() const { return statistics_.frames - 1; }
+  const std::string& background_why() const { return why_; }
+  std::size_t core_bytes() const { return memory_.bytes().size(); }
+
+ private:
+  BackgroundKind choose_model(const CaptureOptions& options);
+  void create_capture(const CaptureOptions& options, BackgroundKind kind);
+  void learn(const CaptureOptions& options, BackgroundKind kind);
+  void count_gap(const Frame& frame);
+
+  std::unique_ptr<Camera> camera_;
+  AlignedBlock memory_;
+  Capture* capture_ = nullptr;  // lives in memory_
+  int64_t frames_wanted_ = 0;
+  Frame frame_;
+  StepReport report_;
+  Statistics statistics_;
+  std::string why_;
+};
+
+// Throws UserError where not one frame came.
+void expect_frames(const Session& session);
+
+// Set by Ctrl-C (installed in main): the loops end as at the end of the video, so files are complete.
+bool interrupted();
+void end_on_interrupt();
+
+}  // namespace nt

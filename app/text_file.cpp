@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/text_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+constexpr std::size_t kFlushAt = 64 * 1024;
+
+}  // namespace
+
+TextFile::TextFile(const std::string& path) : path_(path), is_stdout_(path == "-") {
+  file_ = is_stdout_ ? STDOUT_FILENO : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0) throw UserError("cannot create " + path_ + ": " + std::strerror(errno));
+}
+
+TextFile::~TextFile() {
+  if (file_ >= 0 && !is_stdout_) ::close(file_);
+}
+
+void TextFile::write(std::string_view text) {
+  waiting_ += text;
+  if (waiting_.size() >= kFlushAt) flush();
+}
+
+void TextFile::close() {
+  flush();
+  const int file = std::exchange(file_, -1);
+  if (file >= 0 && !is_stdout_ && ::close(file) != 0) fail(errno);
+}
+
+void TextFile::flush() {
+  std::size_t done = 0;
+  while (done < waiting_.size() && file_ >= 0) {
+    const ssize_t n = ::write(file_, waiting_.data() + done, waiting_.size() - done);
+    if (n >= 0) {
+      done += static_cast<std::size_t>(n);
+      continue;
+    }
+    const int error = errno;
+    if (error == EINTR) continue;
+    if (error == EPIPE && is_stdout_) {
+      file_ = -1;
+      break;
+    }
+    // Take back the row that was cut: what follows the last line end of the part that was written.
+    const std::size_t line_end = std::string_view(waiting_).substr(0, done).rfind('\n');
+    const std::size_t cut = line_end == std::string_view::npos ? done : done - line_end - 1;
+    const off_t size = ::lseek(file_, 0, SEEK_CUR);
+    if (size >= 0 && ::ftruncate(file_, size - static_cast<off_t>(cut)) != 0) fail(errno);
+    fail(error);
+  }
+  waiting_.clear();
+}
+
+void TextFile::fail(int error) {
+  waiting_.clear();
+  const std::string name = is_stdout_ ? "standard output" : path_;
+  throw UserError("cannot write " + name + ": " + std::strerror(error) + "; complete rows up to here are kept");
+}
+
+void write_text(const std::string& path, std::string_view text) {
+  TextFile file(path);
+  file.write(text);
+  file.close();
+}
+
+}  // namespace nt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text file, or standard output for "-", whose every write is checked.
+//
+// Rows go in whole. When the disk is full the file keeps its complete rows, and UserError says so in one line.
+// A reader of standard output that stops early (`neontetra bench | head -1`) is no error: the rest is dropped.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace nt {
+
+class TextFile {
+ public:
+  explicit TextFile(const std::string& path);  // throws UserError when it cannot be created
+  ~TextFile();
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  void write(std::string_view text);
+  void close();  // flushes and reports what the file system held back until now
+
+ private:
+  void flush();
+  [[noreturn]] void fail(int error);
+
+  std::string path_;
+  std::string waiting_;
+  int file_ = -1;
+  bool is_stdout_ = false;
+};
+
+// Writes all of `text` to a file or, for "-", standard output.
+void write_text(const std::string& path, std::string_view text);
+
+}  // namespace nt

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ui/overlay.h"
+
+namespace nt {
+namespace {
+
+constexpr Colour kWhite{1, 1, 1, 0.9f};
+constexpr Colour kCyan{0.2f, 0.9f, 1, 0.9f};
+constexpr Colour kRed{0.95f, 0.15f, 0.1f, 1};
+constexpr Colour kBlue{0.15f, 0.35f, 1, 1};
+constexpr Colour kGreen{0.1f, 0.85f, 0.25f, 1};
+constexpr Colour kYellow{1, 0.85f, 0.1f, 1};
+constexpr Colour kOrange{1, 0.55f, 0.1f, 1};
+constexpr Colour kGrey{0.7f, 0.7f, 0.7f, 0.7f};
+constexpr float kPoint = 9, kLine = 2;  // scene pixels
+constexpr std::size_t kMaxBoxes = 32;   // of other blobs; the scene holds 256 items
+
+}  // namespace
+
+void Overlay::update(Session& session, bool show_blobs) {
+  picture_ = session.camera().picture();
+  picture_.id = kCameraPicture;
+  picture_.revision = static_cast<uint64_t>(session.statistics().frames);
+  has_pose_ = session.report().status == PoseStatus::ok;
+  if (has_pose_) take_pose(session);
+  blob_corners_.clear();
+  if (show_blobs) take_blobs(session);
+  text_.set("frame " + std::to_string(session.frame_index()) + "  " + to_string(session.report().status));
+}
+
+void Overlay::take_pose(Session& session) {
+  const FishPose& pose = session.capture().pose();
+  const auto at = [this](Vec2 p) { return pane_.to_scene(p); };
+  outline_.clear(), midline_.clear(), fins_.clear(), junctions_.clear();
+  for (const Vec2 p : session.capture().contour()) outline_.push_back(at(p));
+  midline_.push_back(at(pose.head));
+  for (int i = pose.u_num - 1; i >= 0; --i) midline_.push_back(at(pose.up_axis[i]));
+  midline_.push_back(at(pose.centre));
+  for (int i = 0; i < pose.l_num; ++i) midline_.push_back(at(pose.low_axis[i]));
+  midline_.push_back(at(pose.tail));
+  const auto fin = [&](float confidence, Vec2 tip, Vec2 top, Vec2 bottom) {
+    if (confidence <= 0) return;
+    fins_.push_back(at(tip));
+    junctions_.push_back(at(top));
+    junctions_.push_back(at(bottom));
+  };
+  fin(pose.confidence.l_fin, pose.l_fin, pose.jun_tl, pose.jun_bl);
+  fin(pose.confidence.r_fin, pose.r_fin, pose.jun_tr, pose.jun_br);
+  head_ = at(pose.head), tail_ = at(pose.tail);
+  const Vec2 from = at(pose.centre), along = pose.dir * (pose.axis_len * 0.35f * pane_.scale);
+  const Vec2 tip = from + along, wing = right_of(along) * 0.15f;
+  arrow_ = {from, tip, tip - along * 0.25f + wing, tip, tip - along * 0.25f - wing};
+}
+
+void Overlay::take_blobs(Session& session) {
+  for (const BlobView& blob : session.capture().blobs()) {
+    if (blob.selected || blob_corners_.size() >= 4 * kMaxBoxes) continue;
+    const Vec2 low = pane_.to_scene({static_cast<float>(blob.box.x0), static_cast<float>(blob.box.y0)});
+    const Vec2 high = pane_.to_scene({static_cast<float>(blob.box.x1), static_cast<float>(blob.box.y1)});
+    for (const Vec2 corner : {low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}) blob_corners_.push_back(corner);
+  }
+}
+
+void Overlay::draw(Scene& scene) const {
+  scene.image(picture_, pane_.corner, {static_cast<float>(pane_.width), static_cast<float>(pane_.height)});
+  for (std::size_t i = 0; i < blob_corners_.size(); i += 4) {
+    scene.lines({blob_corners_.data() + i, 4}, kGrey, 1, true);
+  }
+  if (has_pose_) {
+    scene.lines(outline_, kWhite, kLine, true);
+    scene.lines(midline_, kCyan, kLine);
+    scene.lines(arrow_, kOrange, kLine);
+    scene.points(junctions_, kYellow, kPoint * 0.7f);
+    scene.points(fins_, kGreen, kPoint);
+    scene.points({&tail_, 1}, kBlue, kPoint);
+    scene.points({&head_, 1}, kRed, kPoint);
+  }
+  text_.draw(scene, pane_.corner + Vec2{8, 6});
+}
+
+}  // namespace nt

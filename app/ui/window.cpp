@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ui/window.h"
+
+#include <cstdlib>
+
+#include "platform/camera.h"
+
+namespace nt {
+
+std::unique_ptr<Display> open_window(const std::string& title, int width, int height) {
+  std::unique_ptr<Display> display = open_sdl_display(title, width, height);
+  const std::string name = display->name();
+  const bool unseen = name.find("offscreen") != std::string::npos || name.find("dummy") != std::string::npos;
+  if (unseen && std::getenv("SDL_VIDEODRIVER") == nullptr) {
+    throw UserError("no window: there is no display; start from a desktop session or a text console, or make a video "
+                    "with 'neontetra animate'");
+  }
+  return display;
+}
+
+}  // namespace nt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/camera_spec.h"
+
+#include <gtest/gtest.h>
+
+namespace nt {
+namespace {
+
+// The error that a SPEC gives; fails the test when it gives none.
+UserError error_of(const std::string& text) {
+  try {
+    (void)parse_camera_spec(text);
+  } catch (const UserError& error) {
+    return error;
+  }
+  ADD_FAILURE() << text << " was accepted";
+  return UserError("");
+}
+
+bool says(const UserError& error, const std::string& part) { return std::string(error.what()).find(part) != std::string::npos; }
+
+TEST(CameraSpec, TankIs960x544At30UnlessToldOtherwise) {
+  const CameraSpec spec = parse_camera_spec("sim");
+  EXPECT_EQ(spec.kind, CameraSpec::Kind::sim);
+  EXPECT_EQ(spec.tank.width, 960);
+  EXPECT_EQ(spec.tank.height, 544);
+  EXPECT_EQ(spec.tank.fps, 30);
+  EXPECT_EQ(spec.frames, -1);
+}
+
+TEST(CameraSpec, ReadsEveryKeyOfTheTank) {
+  const std::string scene = tank_scene_names().back();
+  const CameraSpec spec = parse_camera_spec("sim:scene=" + scene + ",seed=7,size=640x360,fps=12.5,frames=40");
+  EXPECT_EQ(spec.tank.scene, scene);
+  EXPECT_EQ(spec.tank.seed, 7u);
+  EXPECT_EQ(spec.tank.width, 640);
+  EXPECT_EQ(spec.tank.height, 360);
+  EXPECT_EQ(spec.tank.fps, 12.5);
+  EXPECT_EQ(spec.frames, 40);
+}
+
+TEST(CameraSpec, FilesWithAndWithoutTheirPrefix) {
+  EXPECT_EQ(parse_camera_spec("file:no/such.avi").path, "no/such.avi");
+  const CameraSpec bare = parse_camera_spec(NEONTETRA_BINARY);
+  EXPECT_EQ(bare.kind, CameraSpec::Kind::file);
+  EXPECT_EQ(bare.path, NEONTETRA_BINARY);
+}
+
+TEST(CameraSpec, NamesTheNearestKeySceneAndKind) {
+  EXPECT_TRUE(says(error_of("sim:sede=3"), "did you mean 'seed'"));
+  EXPECT_TRUE(says(error_of("sim:scene=clam"), "did you mean 'calm'"));
+  EXPECT_TRUE(says(error_of("smi:seed=3"), "did you mean 'sim'"));
+  for (const char* text : {"sim:sede=3", "sim:scene=clam", "smi:seed=3", "sim:seed", "webcam:0"}) {
+    EXPECT_EQ(error_of(text).exit_code, 2) << text;
+  }
+}
+
+TEST(CameraSpec, SaysWhatNumbersAreAllowed) {
+  EXPECT_TRUE(says(error_of("sim:frames=many"), "whole number from 1"));
+  EXPECT_TRUE(says(error_of("sim:frames=0"), "whole number from 1"));
+  EXPECT_TRUE(says(error_of("sim:fps=-3"), "from 1 to 1000"));
+  EXPECT_TRUE(says(error_of("sim:fps=nan"), "from 1 to 1000"));
+  EXPECT_TRUE(says(error_of("sim:size=960"), "960x544"));
+  EXPECT_TRUE(says(error_of("sim:size=0x544"), "whole number from 1"));
+}
+
+TEST(CameraSpec, AMissingBareFileIsNoCamera) {
+  EXPECT_EQ(error_of("no/such/clip.avi").exit_code, 3);
+}
+
+TEST(CameraSpec, TheTankIsNotShrunk) {
+  EXPECT_THROW((void)open_camera(parse_camera_spec("sim:frames=1"), Size{320, 200}, 0), UserError);
+  EXPECT_EQ(open_camera(parse_camera_spec("sim:frames=1"), std::nullopt, 0)->info().width, 960);
+}
+
+}  // namespace
+}  // namespace nt

@@ -13,6 +13,10 @@ constexpr float kMostOpen = det::kPi - 0.35f;
 constexpr float kRangeStep = 0.1f;
 constexpr float kCrushedArea = 0.1f;
 
+// Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
+// over to the body.
+constexpr float kRayShares[] = {0.4f, 0.6f, 0.8f};
+
 float distance(Vec2 a, Vec2 b) { return length(b - a); }
 
 Vec2 polar(float len, float angle_rad) {
@@ -99,6 +103,8 @@ void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len
   rest_[control_count_++] = top;
   rest_[control_count_++] = bottom;
   rest_[control_count_++] = tip;
+  const Vec2 root = lerp(top, bottom, 0.5f);
+  for (const float share : kRayShares) rest_[control_count_++] = lerp(root, tip, share);
 }
 
 void Retarget::collect_rest() {
@@ -125,7 +131,7 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
   const std::span<Retarget> self = arena.take<Retarget>(1);
   const std::span<const Vec2> rest{r.rest_, r.control_count_};
   const std::span<const Vec2> body = rest.first(r.body_count());
-  // The fins' six points behind the body's; only their junctions are read.
+  // The fins' points behind the body's; only their junctions are read.
   r.junctions_ = Mls::create(arena, rest.subspan(body.size()), body, settings.mls, settings.mls_alpha);
   r.mesh_ = Mls::create(arena, character.vertices, rest, settings.mls, settings.mls_alpha);
   r.vertices_ = arena.take<Vec2>(character.vertices.size());
@@ -142,7 +148,7 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
 // Whether no triangle turns over or is crushed when one fin alone stands at `open`.
 bool Retarget::fin_fits(const Fin& fin, float open) {
   for (std::size_t i = 0; i < control_count_; ++i) points_[i] = rest_[i];
-  points_[fin.first + 2] = rest_[fin.first] + polar(fin.length, angle_of_open(open, fin.side));
+  turn_fin(fin, open, 0.0f);
   mesh_->deform({points_, control_count_}, vertices_);
   const std::span<const uint32_t> t = character_.triangles;
   const std::span<const Vec2> v = character_.vertices;
@@ -196,7 +202,19 @@ void Retarget::pose_fin(int index, float angle_rad) {
   const float fish_side = index == 0 ? -1.0f : 1.0f;
   const float open = open_of_angle(angle_rad - turn, fish_side);
   const float fitted = det::clamp(open, fin_range_[index].folded, fin_range_[index].open);
-  points_[fin.first + 2] = top + polar(fin.length, angle_of_open(fitted, fin.side) + turn);
+  turn_fin(fin, fitted, turn);
+}
+
+// The tip by Algorithm 4, the rays with it, about the fin's top junction.
+void Retarget::turn_fin(const Fin& fin, float open, float body_turn) {
+  const Vec2 top = points_[fin.first], rest_top = rest_[fin.first];
+  const float turn = angle_of_open(open, fin.side) - angle_of_open(fin.rest_open, fin.side) + body_turn;
+  points_[fin.first + 2] = top + polar(fin.length, angle_of_open(open, fin.side) + body_turn);
+  const det::SinCos a = det::sincos(turn);
+  for (std::size_t i = fin.first + 3; i < fin.first + 3 + kFinRays; ++i) {
+    const Vec2 p = rest_[i] - rest_top;
+    points_[i] = top + Vec2{p.x * a.cos - p.y * a.sin, p.x * a.sin + p.y * a.cos};
+  }
 }
 
 void Retarget::smooth(Frame& frame, float dt_s) {

@@ -56,15 +56,13 @@ int notch_of_tail(std::span<const Vec2> contour, std::span<const float> arc, Vec
   return best_notch;
 }
 
-float order_evidence(const WidthProfile& widths, const Axis& axis, Vec2 travel) {
+float order_evidence(std::span<const Vec2> smooth, const Axis& axis, Vec2 travel) {
   float front = 0, back = 0;
   constexpr int kThird = kStations / 3;
-  for (int j = 1; j < kThird; ++j) {
-    for (const auto& side : widths.side) {
-      front += side[static_cast<std::size_t>(j)];
-      back += side[static_cast<std::size_t>(kStations - 1 - j)];
-    }
-  }
+  const auto width = [&](int j) {
+    return length(smooth[static_cast<std::size_t>(j)] - smooth[static_cast<std::size_t>(2 * kStations - 1 - j)]);
+  };
+  for (int j = 1; j < kThird; ++j) front += width(j), back += width(kStations - 1 - j);
   const float wider = det::clamp(3.0f * det::log(det::max(front, 0.1f) / det::max(back, 0.1f)), -2.0f, 2.0f);
   // Swimming backwards is rare and slow: a twentieth of a length in the direction of the head says as much as the shape.
   const Vec2 forward = normalised(axis.points[0] - axis.points[kStations - 1]);

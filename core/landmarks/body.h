@@ -27,8 +27,9 @@ Ends find_ends(std::span<const Vec2> contour, std::span<const float> arc, Vec2 b
 // If the tail end has two tips, the notch between them; else `tail` itself. `reach` is a share of the perimeter.
 int notch_of_tail(std::span<const Vec2> contour, std::span<const float> arc, Vec2 barycentre, int tail);
 
-// Log odds that axis.points.front() is the head, from this frame's shape and travel alone.
-float order_evidence(const WidthProfile& widths, const Axis& axis, Vec2 travel);
+// Log odds that axis.points.front() is the head, from this frame's shape and travel alone. `smooth` is what medial_axis
+// wrote: both sides of the smooth outline, right side first, left side backwards.
+float order_evidence(std::span<const Vec2> smooth, const Axis& axis, Vec2 travel);
 
 // Belief that follows from the last frame's, which may rarely be wrong.
 float carried_belief(float log_odds);

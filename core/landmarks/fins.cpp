@@ -7,6 +7,7 @@ namespace nt {
 namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
+constexpr float kSnout = 0.05f, kPeduncle = 0.8f;
 constexpr float kStandsOut = 0.035f;         // of the length: less is a bulge of the body or outline noise
 constexpr float kHollow = 0.008f;            // of the length: depth of a junction
 
@@ -79,8 +80,12 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
   // cross() is positive clockwise, so inward is +1 on the right side.
   const float inward = is_right ? 1.0f : -1.0f;
   const float tip_round = kTipRound * axis_length;
-  const Junction top = find_junction(contour, walk, k_tip, 0, inward, tip_round);
-  const Junction bottom = find_junction(contour, walk, k_tip, walk.count, inward, tip_round);
+  // P stands for head and tail, but no root of a pectoral fin lies in the snout or in the caudal fin.
+  int k_head = k_tip, k_tail = k_tip;
+  while (k_head > 0 && place(k_head).s > kSnout) --k_head;
+  while (k_tail < walk.count && place(k_tail).s < kPeduncle) ++k_tail;
+  const Junction top = find_junction(contour, walk, k_tip, k_head, inward, tip_round);
+  const Junction bottom = find_junction(contour, walk, k_tip, k_tail, inward, tip_round);
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const float height = -depth_below(point(top.k), point(bottom.k), point(k_tip), inward);
   fin.tip = walk.at(k_tip), fin.top = walk.at(top.k), fin.bottom = walk.at(bottom.k);

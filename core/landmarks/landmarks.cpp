@@ -31,7 +31,7 @@ struct LandmarksImpl final : Landmarks {
   bool found = false;
 
   bool find_outline(std::span<const Vec2> points, const LandmarkHints& hints, FishPose& pose);
-  void decide_order(const LandmarkHints& hints, const Moments& moments, std::span<const Vec2> c);
+  bool decide_order(const LandmarkHints& hints);
   void measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left, FinCut& right_cut);
   void sample_axis(Vec2 barycentre, FishPose& pose) const;
 };
@@ -43,46 +43,23 @@ Vec2 at(std::span<const Vec2> c, int i) { return c[static_cast<std::size_t>(i)];
 
 int index_gap(int from, int to, int n) { return ((to - from) % n + n) % n; }
 
-int nearest_index(std::span<const Vec2> c, Vec2 p) {
-  int best = 0;
-  float best_d = 1e30f;
-  for (int i = 0; i < static_cast<int>(c.size()); ++i) {
-    const float d = length_sq(at(c, i) - p);
-    if (d < best_d) best_d = d, best = i;
-  }
-  return best;
-}
-
-void reverse(Axis& axis) {
-  for (int j = 0; j < kStations / 2; ++j) {
-    const Vec2 t = axis.points[static_cast<std::size_t>(j)];
-    axis.points[static_cast<std::size_t>(j)] = axis.points[static_cast<std::size_t>(kStations - 1 - j)];
-    axis.points[static_cast<std::size_t>(kStations - 1 - j)] = t;
-  }
-}
-
-// Orders the axis so that it starts at the head, and updates the belief.
-void LandmarksImpl::decide_order(const LandmarkHints& hints, const Moments&, std::span<const Vec2> c) {
-  const int n = static_cast<int>(c.size());
-  const int head = nearest_index(c, axis.points[0]), tail = nearest_index(c, axis.points[kStations - 1]);
-  const Stretch right{head, index_gap(head, tail, n)};
-  project_outline(c, right, axis, along);
-  const WidthProfile widths = width_profile(along.first(c.size()), right, {}, {});
-  const float evidence = order_evidence(widths, axis, hints.travel);
+// Which end of the axis is the head: true when it is the first. Updates the belief.
+bool LandmarksImpl::decide_order(const LandmarkHints& hints) {
+  const float evidence = order_evidence(smooth, axis, hints.travel);
+  const Vec2 first = axis.points[0], last = axis.points[kStations - 1];
   float belief = evidence;  // that axis.points[0] is the head
-  was_swapped = false;
   bool same_order = true;
   if (hints.has_last) {
-    const float same = length(axis.points[0] - hints.last_head) + length(axis.points[kStations - 1] - hints.last_tail);
-    const float crossed = length(axis.points[0] - hints.last_tail) + length(axis.points[kStations - 1] - hints.last_head);
+    const float same = length(first - hints.last_head) + length(last - hints.last_tail);
+    const float crossed = length(first - hints.last_tail) + length(last - hints.last_head);
     same_order = same <= crossed;
     const float carried = carried_belief(hints.head_log_odds);
     belief = (same_order ? carried : -carried) + kRepeatedEvidence * evidence;
   }
   belief = det::clamp(belief, -8.0f, 8.0f);
-  if (belief < 0) reverse(axis);
   log_odds = det::abs(belief);
-  if (hints.has_last) was_swapped = (belief >= 0) != same_order;
+  was_swapped = hints.has_last && (belief >= 0) != same_order;
+  return belief >= 0;
 }
 
 void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left_cut,
@@ -136,15 +113,9 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   const auto t = [&](int i) { return arcs[static_cast<std::size_t>(i)] / perimeter; };
   axis = medial_axis(fourier, t(ends.head), t(ends.tail), smooth);
   if (axis.length < 8.0f || axis.length < 1.2f * det::abs(moments.area) / axis.length) return false;
-  decide_order(hints, moments, c);
-  int head = nearest_index(c, axis.points[0]), tail = nearest_index(c, axis.points[kStations - 1]);
-  // nearest_index works from the smooth axis, which ends short of the tips; the true tips are the ends found before.
-  if (index_gap(head, ends.head, static_cast<int>(n)) != 0 || index_gap(tail, ends.tail, static_cast<int>(n)) != 0) {
-    const bool kept = length(at(c, ends.head) - axis.points[0]) < length(at(c, ends.tail) - axis.points[0]);
-    head = kept ? ends.head : ends.tail;
-    tail = kept ? ends.tail : ends.head;
-  }
-  tail = notch_of_tail(c, arcs, moments.centroid, tail);
+  const bool kept = decide_order(hints);
+  const int head = kept ? ends.head : ends.tail;
+  const int tail = notch_of_tail(c, arcs, moments.centroid, kept ? ends.tail : ends.head);
   axis = medial_axis(fourier, t(head), t(tail), smooth);
 
   // Ours: centre the axis in the original outline, first carefully, then without the fins.

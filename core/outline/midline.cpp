@@ -14,35 +14,44 @@ float fraction_between(float from, float to) {
   return d < 0 ? d + 1.0f : d;
 }
 
-// The foot of `p` on segment j of the axis, as a place; squared distance in `dist_sq`.
-AlongAxis foot(const Axis& axis, int j, Vec2 p, float& dist_sq) {
+// The foot of `p` on segment j of the axis: its place on the segment, and the squared distance.
+struct Foot {
+  float u = 0;
+  float dist_sq = 1e30f;
+};
+
+Foot foot(const Axis& axis, int j, Vec2 p) {
   const Vec2 a = axis.points[static_cast<std::size_t>(j)], b = axis.points[static_cast<std::size_t>(j) + 1];
   const Vec2 ab = b - a;
-  const float len_sq = det::max(length_sq(ab), 1e-12f);
-  float u = dot(p - a, ab) / len_sq;
+  float u = dot(p - a, ab) / det::max(length_sq(ab), 1e-12f);
   // The end segments go on beyond the axis, so that the caps get places outside [0, 1].
-  const float lo = j == 0 ? -1e3f : 0.0f, hi = j == kLast - 1 ? 1e3f : 1.0f;
-  u = det::clamp(u, lo, hi);
-  const Vec2 offset = p - (a + ab * u);
-  dist_sq = length_sq(offset);
-  // ab points to the tail; the fish's right is then to the left of ab on the screen: cross(ab, offset) < 0.
-  const float side = -cross(ab, offset);
-  const float d = det::sqrt(dist_sq);
-  return {(static_cast<float>(j) + u) / kLast, side < 0 ? -d : d};
+  u = det::clamp(u, j == 0 ? -1e3f : 0.0f, j == kLast - 1 ? 1e3f : 1.0f);
+  return {u, length_sq(p - (a + ab * u))};
 }
 
+AlongAxis place_on(const Axis& axis, int j, Foot f, Vec2 p) {
+  const Vec2 a = axis.points[static_cast<std::size_t>(j)], b = axis.points[static_cast<std::size_t>(j) + 1];
+  // ab points to the tail; the fish's right is then to the left of ab on the screen: cross(ab, offset) < 0.
+  const bool is_right = cross(b - a, p - a) <= 0;
+  const float d = det::sqrt(f.dist_sq);
+  return {(static_cast<float>(j) + f.u) / kLast, is_right ? d : -d};
+}
+
+// Continues from `segment`: walks to the locally nearest one, looking past the kinks that a half-corrected axis has.
 AlongAxis nearest_from(const Axis& axis, Vec2 p, int& segment) {
-  float best = 1e30f;
-  AlongAxis place;
-  int best_segment = segment;
-  const int lo = max_int(segment - 6, 0), hi = min_int(segment + 6, kLast - 1);
-  for (int j = lo; j <= hi; ++j) {
-    float dist_sq = 0;
-    const AlongAxis at = foot(axis, j, p, dist_sq);
-    if (dist_sq < best) best = dist_sq, place = at, best_segment = j;
+  constexpr int kLookOn = 6, kLookBack = 3;
+  Foot best;
+  int best_j = segment;
+  for (int j = max_int(segment - 1, 0); j < kLast && j <= best_j + kLookOn; ++j) {
+    const Foot f = foot(axis, j, p);
+    if (f.dist_sq < best.dist_sq) best = f, best_j = j;
   }
-  segment = best_segment;
-  return place;
+  for (int j = segment - 2; j >= 0 && j >= best_j - kLookBack; --j) {
+    const Foot f = foot(axis, j, p);
+    if (f.dist_sq < best.dist_sq) best = f, best_j = j;
+  }
+  segment = best_j;
+  return place_on(axis, best_j, best, p);
 }
 
 // Fills the stations that the segment between two projected points crosses, keeping the wider value.
@@ -77,13 +86,13 @@ bool inside_range(int i, int begin, int end, int n) {  // begin -> end in contou
 
 // Place along the axis of any point, from all segments.
 float place_of(const Axis& axis, Vec2 p) {
-  float best = 1e30f, s = 0;
+  Foot best;
+  int best_j = 0;
   for (int j = 0; j < kLast; ++j) {
-    float dist_sq = 0;
-    const AlongAxis at = foot(axis, j, p, dist_sq);
-    if (dist_sq < best) best = dist_sq, s = at.s;
+    const Foot f = foot(axis, j, p);
+    if (f.dist_sq < best.dist_sq) best = f, best_j = j;
   }
-  return det::clamp(s, 0.0f, 1.0f);
+  return det::clamp((static_cast<float>(best_j) + best.u) / kLast, 0.0f, 1.0f);
 }
 
 // Distance from `p` along unit `dir` to the nearest crossing with the contour that lies within `reach`; -1 if none.

@@ -17,8 +17,6 @@ namespace {
 // A lamp switched on, or a camera that was pushed: this share of the picture differs for this many frames.
 constexpr float kFloodShare = 0.4f;
 constexpr int kFloodFrames = 8;
-// Around the tracked fish nothing is learned within this many pixels: its half-transparent rim must not fade.
-constexpr int kKeepMargin = 3;
 
 struct CaptureImpl final : Capture {
   Limits limits;
@@ -100,8 +98,7 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   }
   if (!means_something) return false;
 
-  for (int i = 0; i < raw.words_per_row * height; ++i) open.words[i] = raw.words[i];
-  open_mask(open, scratch, settings.open_size);
+  open_mask(raw, scratch, open, settings.open_size);
   clock.lap(Stage::clean);
   const int min_area = settings.min_area_px > 0 ? settings.min_area_px : max_int(width * height / 4000, 9);
   blobs->find(open, min_area);
@@ -129,16 +126,19 @@ bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, Step
   if (count < 0) report.flags |= kContourCut;
   contour_count = max_int(count, 0);
   contour_high_water = max_int(contour_high_water, contour_count);
+  const float right = static_cast<float>(width - 1), bottom = static_cast<float>(height - 1);
+  bool touches_edge = false;
   for (int i = 0; i < contour_count; ++i) {
     const Vec2 p = contour[static_cast<std::size_t>(i)];
+    touches_edge |= p.x <= 0 || p.y <= 0 || p.x >= right || p.y >= bottom;
     hash = hash_u64(static_cast<uint64_t>(p.x) << 32 | static_cast<uint64_t>(p.y), hash);
   }
   clock.lap(Stage::outline);
-  if (fish.touches_edge) report.status = PoseStatus::partial;
-  return contour_count > 0 && !fish.touches_edge;
+  if (touches_edge) report.status = PoseStatus::partial;
+  return contour_count > 0 && !touches_edge;
 }
 
-// The fish is not learned as background: its mask, grown by a margin, becomes next frame's `keep`.
+// The fish is not learned as background: what is around it becomes next frame's `keep`.
 void CaptureImpl::protect_fish(const FishMask* fish) {
   clear_mask(keep);
   kept = fish != nullptr;
@@ -152,13 +152,6 @@ void CaptureImpl::protect_fish(const FishMask* fish) {
       row[x >> 6] |= word << shift;
       if (shift != 0 && (x >> 6) + 1 < keep.words_per_row) row[(x >> 6) + 1] |= word >> (64 - shift);
     }
-  }
-  const BitMask* from = &keep;
-  const BitMask* to = &scratch;
-  for (int i = 0; i < kKeepMargin + 1; ++i) {  // an even number of passes ends in `keep`
-    dilate3(*from, *to);
-    const BitMask* other = from;
-    from = to, to = other;
   }
 }
 

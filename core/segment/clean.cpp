@@ -9,18 +9,13 @@ namespace {
 
 uint64_t last_word_bits(int width) { return (width & 63) == 0 ? ~uint64_t{0} : (uint64_t{1} << (width & 63)) - 1; }
 
-// Word i of a row, where bits outside the picture read as `outside` (all ones or all zeros).
-struct Row {
-  const uint64_t* words;  // null: a row outside the picture
-  int count;
-  uint64_t last;     // valid bits of the last word
-  uint64_t outside;
-  uint64_t at(int i) const {
-    if (words == nullptr || i < 0 || i >= count) return outside;
-    return i == count - 1 ? (words[i] & last) | (outside & ~last) : words[i];
-  }
-};
+bool all_zero(const uint64_t* words, int n) {
+  uint64_t any = 0;
+  for (int i = 0; i < n; ++i) any |= words[i];
+  return any == 0;
+}
 
+// A missing row above or below is replaced by the row itself, which changes neither an AND nor an OR with it.
 template <bool kErode>
 void morph3(const BitMask& from, const BitMask& to) {
   const int n = from.words_per_row;
@@ -28,18 +23,25 @@ void morph3(const BitMask& from, const BitMask& to) {
   const uint64_t outside = kErode ? ~uint64_t{0} : 0;
   const auto join = [](uint64_t a, uint64_t b) { return kErode ? a & b : a | b; };
   for (int y = 0; y < from.height; ++y) {
-    const Row above{y > 0 ? from.row(y - 1) : nullptr, n, last, outside};
-    const Row here{from.row(y), n, last, outside};
-    const Row below{y + 1 < from.height ? from.row(y + 1) : nullptr, n, last, outside};
-    const auto column = [&](int i) { return join(join(above.at(i), here.at(i)), below.at(i)); };
-    uint64_t before = column(-1), now = column(0);
+    const uint64_t* here = from.row(y);
+    const uint64_t* above = y > 0 ? from.row(y - 1) : here;
+    const uint64_t* below = y + 1 < from.height ? from.row(y + 1) : here;
     uint64_t* out = to.row(y);
+    if (all_zero(here, n) && (kErode || (all_zero(above, n) && all_zero(below, n)))) {
+      std::memset(out, 0, static_cast<std::size_t>(n) * 8);
+      continue;
+    }
+    const auto column = [&](int i) {
+      const uint64_t word = join(join(above[i], here[i]), below[i]);
+      return i == n - 1 ? (word & last) | (outside & ~last) : word;
+    };
+    uint64_t before = outside, now = column(0);
     for (int i = 0; i < n; ++i) {
-      const uint64_t after = column(i + 1);
-      const uint64_t left = (now << 1) | (before >> 63), right = (now >> 1) | (after << 63);
-      out[i] = join(join(left, now), right) & (i == n - 1 ? last : ~uint64_t{0});
+      const uint64_t after = i + 1 < n ? column(i + 1) : outside;
+      out[i] = join(join((now << 1) | (before >> 63), now), (now >> 1) | (after << 63));
       before = now, now = after;
     }
+    out[n - 1] &= last;
   }
 }
 
@@ -48,15 +50,18 @@ void morph3(const BitMask& from, const BitMask& to) {
 void erode3(const BitMask& from, const BitMask& to) { morph3<true>(from, to); }
 void dilate3(const BitMask& from, const BitMask& to) { morph3<false>(from, to); }
 
-void open_mask(const BitMask& mask, const BitMask& scratch, int size) {
-  // r erosions and r dilations: 2 r passes, an even number, so the result ends where it began.
+void open_mask(const BitMask& from, const BitMask& scratch, const BitMask& to, int size) {
   const int r = (size - 1) / 2;
-  const BitMask* from = &mask;
-  const BitMask* to = &scratch;
+  if (r == 0) {
+    std::memcpy(to.words, from.words, static_cast<std::size_t>(from.words_per_row) * static_cast<std::size_t>(from.height) * 8);
+    return;
+  }
+  // r erosions and r dilations, to and fro between scratch and `to`: an even number, so the last ends in `to`.
+  const BitMask* source = &from;
   for (int i = 0; i < 2 * r; ++i) {
-    i < r ? erode3(*from, *to) : dilate3(*from, *to);
-    const BitMask* other = from;
-    from = to, to = other;
+    const BitMask* target = i % 2 == 0 ? &scratch : &to;
+    i < r ? erode3(*source, *target) : dilate3(*source, *target);
+    source = target;
   }
 }
 

@@ -13,8 +13,8 @@ namespace nt {
 void erode3(const BitMask& from, const BitMask& to);
 void dilate3(const BitMask& from, const BitMask& to);
 
-// Opening in place by a square of side `size` (odd; 1 leaves the mask as it is); `scratch` has the mask's size.
-void open_mask(const BitMask& mask, const BitMask& scratch, int size);
+// Opening of `from` into `to` by a square of side `size` (odd; 1 copies); all three have one size, none overlap.
+void open_mask(const BitMask& from, const BitMask& scratch, const BitMask& to, int size);
 
 int count_bits(const BitMask& mask);
 void clear_mask(const BitMask& mask);

@@ -20,7 +20,7 @@ uint64_t difference_word(const uint8_t* luma, const uint8_t* background, int thr
   return word;
 }
 
-void follow_segment(const uint8_t* luma, uint8_t* background, const uint8_t* frozen, int limit) {
+void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, int limit) {
   const ByteLanes d;
   const auto one = hn::Set(d, uint8_t{1});
   const auto most = hn::Set(d, static_cast<uint8_t>(limit));
@@ -31,7 +31,7 @@ void follow_segment(const uint8_t* luma, uint8_t* background, const uint8_t* fro
     const auto step = hn::Sub(hn::Min(brighter, one), hn::Min(darker, one));
     const auto diff = hn::Or(brighter, darker);
     auto moves = hn::VecFromMask(d, hn::Eq(hn::Min(diff, most), diff));
-    if (frozen != nullptr) moves = hn::AndNot(hn::LoadU(d, frozen + i), moves);
+    if (frozen != 0) moves = hn::AndNot(lanes_of_bits(d, frozen, i), moves);
     hn::StoreU(hn::Add(b, hn::And(step, moves)), d, background + i);
   }
 }
@@ -57,15 +57,14 @@ void mask_of_difference(LumaView luma, LumaView background, int threshold, int s
 
 void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, int limit,
                        ImageView<uint8_t> background) {
-  uint8_t tail[64], frozen[64];
+  uint8_t tail[64];
   for (int y = 0; y < luma.height; ++y) {
     uint8_t* b = background.row(y);
     const uint64_t* fore = foreground.row(y);
     const uint64_t* kept = keep != nullptr ? keep->row(y) : nullptr;
     for_segments(luma.row(y), luma.width, tail, [&](int x, const uint8_t* at) {
       const uint64_t still = fore[x >> 6] | (kept != nullptr ? kept[x >> 6] : 0);
-      if (still != 0) bytes_of_bits(still, frozen);
-      follow_segment(at, b + x, still != 0 ? frozen : nullptr, limit);
+      follow_segment(at, b + x, still, limit);
     });
   }
 }

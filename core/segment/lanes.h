@@ -38,9 +38,10 @@ HWY_INLINE void for_segments(const uint8_t* row, int width, uint8_t* tail, F&& f
 // The bits of the word at `x` that lie inside the row.
 inline uint64_t valid_bits(int x, int width) { return x + 64 <= width ? ~uint64_t{0} : (uint64_t{1} << (width - x)) - 1; }
 
-// 64 mask bits to 64 bytes of 0 or 255.
-inline void bytes_of_bits(uint64_t bits, uint8_t* out) {
-  for (int i = 0; i < 64; ++i) out[i] = static_cast<uint8_t>(-static_cast<int>((bits >> i) & 1));
+// Lanes of 255 where bits i .. i + Lanes of a mask word are set, else 0.
+HWY_INLINE hn::Vec<ByteLanes> lanes_of_bits(ByteLanes d, uint64_t word, std::size_t i) {
+  const uint64_t bits = word >> i;
+  return hn::VecFromMask(d, hn::LoadMaskBits(d, reinterpret_cast<const uint8_t*>(&bits)));
 }
 
 }  // namespace nt

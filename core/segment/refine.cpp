@@ -18,6 +18,8 @@ constexpr float kSeparate = 0.78f;
 // A shadow keeps the ground's texture: the slope of luma on background equals their ratio. A fin hides part of it.
 constexpr float kSameTexture = 0.2f;
 
+constexpr int kKeepMargin = 4;  // even: grow() then ends where it began
+
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
 }
@@ -123,20 +125,31 @@ bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish
   std::array<int, 256> histogram{};
   for_pixels(fish, [&](int x, int y) { ++histogram[static_cast<std::size_t>(difference(luma, background, x, y))]; });
   const OtsuSplit split = otsu(histogram);
-  int64_t bright_seeds = 0, dark_seeds = 0;
-  for_pixels(seeds, [&](int x, int y) {
-    if (difference(luma, background, x, y) <= split.threshold) return;
-    bright_seeds += bright.at(x, y);
-    dark_seeds += dark.at(x, y);
-  });
-  clear_mask(shadow);
-  int found = 0;
-  for_pixels(fish, [&](int x, int y) {
-    if (dark.at(x, y) && difference(luma, background, x, y) <= split.threshold) shadow.set(x, y), ++found;
+  const BitMask far = shadow;  // first the class farther from the background, then what is left of the dark
+  mask_of_difference(luma, background, split.threshold, 0, far);
+  int bright_seeds = 0, dark_seeds = 0, found = 0;
+  combine(shadow, [&](int i) {
+    const uint64_t sure = seeds.words[i] & far.words[i];
+    bright_seeds += std::popcount(sure & bright.words[i]);
+    dark_seeds += std::popcount(sure & dark.words[i]);
+    const uint64_t near_and_dark = fish.words[i] & dark.words[i] & ~far.words[i];
+    found += std::popcount(near_and_dark);
+    return near_and_dark;
   });
   if (found == 0) return false;
   if (bright_seeds > 2 * dark_seeds) return true;  // a bright fish: what is a little darker than the ground is not it
   return split.eta > kSeparate && texture_kept(luma, background, shadow);
+}
+
+// Grows what must not be learned by kKeepMargin: the fish's half-transparent rim.
+void Refine::grow(const BitMask& mask, const BitMask& scratch) const {
+  const BitMask* from = &mask;
+  const BitMask* to = &scratch;
+  for (int i = 0; i < kKeepMargin; ++i) {
+    dilate3(*from, *to);
+    const BitMask* other = from;
+    from = to, to = other;
+  }
 }
 
 FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, const Blob& blob, int label,
@@ -164,12 +177,9 @@ FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, co
     keep_connected(candidates, seeds, fish);
     result.shadow_removed = true;
   }
+  grow(around, shadow);
   result.mask = fish;
   result.around = around;
-  for_pixels(fish, [&](int x, int y) {
-    const int fx = x + result.box.x0, fy = y + result.box.y0;
-    result.touches_edge |= fx == 0 || fy == 0 || fx == luma.width - 1 || fy == luma.height - 1;
-  });
   return result;
 }
 

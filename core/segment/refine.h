@@ -21,8 +21,7 @@ namespace nt {
 struct FishMask {
   Box box;           // in the frame
   BitMask mask;      // box coordinates
-  BitMask around;    // the fish and what hangs together with it (its shadow): not to be learned as background
-  bool touches_edge = false;   // the fish reaches the frame's edge
+  BitMask around;    // the fish and what hangs together with it (its shadow), grown: not to be learned as background
   bool shadow_removed = false;
 };
 
@@ -39,6 +38,8 @@ class Refine {
   bool keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out);
   bool find_shadow(LumaView luma, LumaView background, const BitMask& fish, const BitMask& seeds, const BitMask& bright,
                    const BitMask& dark, const BitMask& shadow) const;
+
+  void grow(const BitMask& mask, const BitMask& scratch) const;
 
   std::span<uint64_t> words_[7];
   Blobs* blobs_ = nullptr;  // of the weak mask in the box

@@ -11,38 +11,43 @@ namespace {
 
 constexpr std::size_t kTable = 16384;  // random bytes beyond one row's length, so that rows start at different places
 
-// Bits of the pixels with fewer than kMinMatches samples within `radius`. Stops reading planes once every lane has its
-// matches: background pixels mostly need two.
+// Bits of the pixels with fewer than kMinMatches samples within `radius`. Nearly every background pixel matches the first
+// two planes, so those are tried first; only lane groups that are left read on, until every lane has its matches.
 uint64_t classify_segment(const uint8_t* luma, const uint8_t* samples, std::ptrdiff_t plane_stride, int radius) {
   const ByteLanes d;
   const auto limit = hn::Set(d, static_cast<uint8_t>(radius));
-  const auto enough = hn::Set(d, static_cast<uint8_t>(Vibe::kMinMatches));
+  // 255 where |luma - sample| <= radius: a true comparison is -1, so subtracting it counts.
+  const auto match = [&](auto v, int k, std::size_t i) {
+    const auto diff = abs_diff(v, hn::LoadU(d, samples + k * plane_stride + i));
+    return hn::VecFromMask(d, hn::Eq(hn::Min(diff, limit), diff));
+  };
   uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto v = hn::LoadU(d, luma + i);
-    auto matches = hn::Zero(d);
-    auto lacking = hn::Lt(matches, enough);
-    for (int k = 0; k < Vibe::kSamples; ++k) {
-      const auto diff = abs_diff(v, hn::LoadU(d, samples + k * plane_stride + i));
-      // A true comparison is 255 = -1, so subtracting it counts.
-      matches = hn::Sub(matches, hn::VecFromMask(d, hn::Eq(hn::Min(diff, limit), diff)));
-      lacking = hn::Lt(matches, enough);
-      if (k + 1 >= Vibe::kMinMatches && hn::AllFalse(d, lacking)) break;
+    const auto first = match(v, 0, i), second = match(v, 1, i);
+    const auto all = hn::Set(d, uint8_t{255});
+    if (HWY_LIKELY(hn::AllTrue(d, hn::Eq(hn::And(first, second), all)))) continue;
+    const auto needed = hn::Set(d, static_cast<uint8_t>(Vibe::kMinMatches));
+    auto matches = hn::Sub(hn::Sub(hn::Zero(d), first), second);
+    auto lacking = hn::Ne(hn::Min(matches, needed), needed);
+    for (int k = 2; k < Vibe::kSamples && !hn::AllFalse(d, lacking); ++k) {
+      matches = hn::Sub(matches, match(v, k, i));
+      lacking = hn::Ne(hn::Min(matches, needed), needed);
     }
     hn::StoreMaskBits(d, lacking, reinterpret_cast<uint8_t*>(&word) + i / 8);
   }
   return word;
 }
 
-// to[i] = luma[i] where chosen[i] is 255 and frozen[i] (if any) is 0.
-void refresh_segment(const uint8_t* luma, const uint8_t* chosen, const uint8_t* frozen, uint8_t* to) {
+// to[i] = luma[i] where chosen[i] is 255 and bit i of `frozen` is clear.
+void refresh_segment(const uint8_t* luma, const uint8_t* chosen, uint64_t frozen, uint8_t* to) {
   const ByteLanes d;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     auto pick = hn::LoadU(d, chosen + i);
-    if (frozen != nullptr) pick = hn::AndNot(hn::LoadU(d, frozen + i), pick);
+    if (HWY_UNLIKELY(frozen != 0)) pick = hn::AndNot(lanes_of_bits(d, frozen, i), pick);
     const auto old = hn::LoadU(d, to + i);
-    const auto next = hn::Or(hn::And(pick, hn::LoadU(d, luma + i)), hn::AndNot(pick, old));
-    hn::StoreU(next, d, to + i);
+    // old ^ (pick & (old ^ new)) selects without a blend instruction.
+    hn::StoreU(hn::Xor(old, hn::And(pick, hn::Xor(old, hn::LoadU(d, luma + i)))), d, to + i);
   }
 }
 
@@ -102,22 +107,21 @@ void Vibe::initialise(LumaView luma) {
 }
 
 void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep) {
-  uint8_t tail[64], frozen[64];
+  uint8_t tail[64];
   const uint8_t* own_choice = chosen_.data() + random_.below(kTable);
   const uint8_t* neighbour_choice = chosen_.data() + random_.below(kTable);
+  uint64_t r = random_.next();
+  const int dy = static_cast<int>(random_.below(3)) - 1;
+  uint8_t* own = sample_row(static_cast<int>(random_.below(kSamples)), y);
+  uint8_t* other = sample_row(static_cast<int>(random_.below(kSamples)), clamp_int(y + dy, 0, height_ - 1));
   for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
-    const uint64_t still = foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
-    const uint64_t r = random_.next();
-    if (still == ~uint64_t{0}) return;
-    if (still != 0) bytes_of_bits(still, frozen);
-    const uint8_t* hold = still != 0 ? frozen : nullptr;
-    const int own = static_cast<int>((r & 0xffff) * kSamples >> 16);
-    const int other = static_cast<int>(((r >> 16) & 0xffff) * kSamples >> 16);
-    int dx = static_cast<int>(((r >> 32) & 0xff) * 3 >> 8) - 1;
-    const int dy = static_cast<int>(((r >> 40) & 0xff) * 3 >> 8) - 1;
+    const uint64_t frozen = foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
+    // Two random bits a segment: -1, 0, 0, +1, so that half of the neighbours lie straight above or below.
+    int dx = static_cast<int>((r >> (x >> 6 & 31) & 1)) - static_cast<int>((r >> (32 + (x >> 6 & 31)) & 1));
     if (x + dx < 0 || x + dx + 64 > stride_) dx = 0;
-    refresh_segment(at, own_choice + x, hold, sample_row(own, y) + x);
-    refresh_segment(at, neighbour_choice + x, hold, sample_row(other, clamp_int(y + dy, 0, height_ - 1)) + x + dx);
+    if (frozen == ~uint64_t{0}) return;
+    refresh_segment(at, own_choice + x, frozen, own + x);
+    refresh_segment(at, neighbour_choice + x, frozen, other + x + dx);
   });
 }
 

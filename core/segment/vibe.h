@@ -5,8 +5,8 @@
 // TIP 2011: N = 20 samples a pixel, #min = 2 matches within R, one in phi = 16 background pixels refreshes one of its own
 // samples and one of a random neighbour's.
 // Differs: the samples are 20 planes of rows, so that a background pixel touches two of them and not 20 bytes; the random
-// choice of sample and neighbour is made per 64-pixel segment, that of the pixels per pixel from a seeded table, which
-// leaves every pixel's own statistics as in the paper. R follows the noise (20 at an ordinary camera's).
+// choice of the sample is made per row (so memory is walked in streams), of the neighbour per row and 64-pixel segment, of
+// the pixels per pixel from a seeded table. Every pixel's own chances stay those of the paper. R follows the noise (20 at an ordinary camera's).
 // Memory: 21 bytes a pixel and the table. Cost at 960x544: see docs/PERFORMANCE.md.
 #pragma once
 #include <cstdint>

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/author/character_file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "core/base/arena.h"
+#include "core/base/hash.h"
+#include "core/character/character_format.h"
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+std::vector<Vec2> control_section(const Character& character) {
+  const ControlPoints& c = character.rest;
+  std::vector<Vec2> out{c.centre, c.head, c.tail};
+  out.insert(out.end(), c.up_axis, c.up_axis + character.u_num);
+  out.insert(out.end(), c.low_axis, c.low_axis + character.l_num);
+  const Vec2 none;
+  const bool l = character.has_l_fin, r = character.has_r_fin;
+  out.insert(out.end(), {l ? c.jun_tl : none, r ? c.jun_tr : none, l ? c.jun_bl : none, r ? c.jun_br : none,
+                         l ? c.l_fin : none, r ? c.r_fin : none});
+  return out;
+}
+
+// Appends a section on the next 64-byte line and returns its offset.
+uint64_t append(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
+  const std::size_t offset = align_up(bytes.size());
+  bytes.resize(offset + size);
+  std::memcpy(bytes.data() + offset, data, size);
+  return offset;
+}
+
+}  // namespace
+
+std::vector<std::byte> character_bytes(const Character& character) {
+  CharacterHeader h{};
+  std::memcpy(h.magic, kCharacterMagic, sizeof h.magic);
+  h.version = kCharacterVersion;
+  h.header_bytes = sizeof h;
+  h.u_num = static_cast<uint32_t>(character.u_num);
+  h.l_num = static_cast<uint32_t>(character.l_num);
+  h.flags = (character.has_l_fin ? kCharacterLeftFin : 0u) | (character.has_r_fin ? kCharacterRightFin : 0u);
+  h.vertex_count = static_cast<uint32_t>(character.vertices.size());
+  h.triangle_count = static_cast<uint32_t>(character.triangles.size() / 3);
+  h.texture_width = static_cast<uint32_t>(character.texture.width);
+  h.texture_height = static_cast<uint32_t>(character.texture.height);
+
+  std::vector<std::byte> bytes(sizeof h);
+  const std::vector<Vec2> controls = control_section(character);
+  h.controls_offset = append(bytes, controls.data(), controls.size() * sizeof(Vec2));
+  h.vertices_offset = append(bytes, character.vertices.data(), character.vertices.size_bytes());
+  h.texcoords_offset = append(bytes, character.texcoords.data(), character.texcoords.size_bytes());
+  h.triangles_offset = append(bytes, character.triangles.data(), character.triangles.size_bytes());
+  const std::size_t row = std::size_t{4} * h.texture_width;
+  h.texture_offset = align_up(bytes.size());
+  bytes.resize(h.texture_offset + row * h.texture_height);
+  for (std::size_t y = 0; y < h.texture_height; ++y) {
+    std::memcpy(bytes.data() + h.texture_offset + y * row,
+                character.texture.pixels + y * static_cast<std::size_t>(character.texture.stride), row);
+  }
+  h.file_bytes = bytes.size();
+  std::memcpy(bytes.data(), &h, sizeof h);
+  h.checksum = hash_bytes(bytes.data() + kChecksumFrom, bytes.size() - kChecksumFrom);
+  std::memcpy(bytes.data(), &h, sizeof h);
+  return bytes;
+}
+
+void write_character_file(const std::string& path, std::span<const std::byte> bytes) {
+  const std::string partial = path + ".part";
+  std::ofstream out(partial, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(partial, path, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw UserError("cannot write the character to " + path + ": check the folder, its rights and the free space");
+  }
+}
+
+LoadedCharacter::LoadedCharacter(const std::string& path, const Limits& limits) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw UserError("cannot read the character " + path + ": no such file, or no right to read it");
+  std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  open(std::as_bytes(std::span<const char>(bytes)), path, limits);
+}
+
+LoadedCharacter::LoadedCharacter(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
+  open(bytes, name, limits);
+}
+
+void LoadedCharacter::open(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
+  memory_ = AlignedBlock(bytes.size() + 1);  // an empty file has a place too
+  std::copy(bytes.begin(), bytes.end(), memory_.bytes().begin());
+  const Result<Character> opened = open_character(memory_.bytes().first(bytes.size()), limits);
+  if (!opened.ok()) throw UserError(name + ": " + opened.status().message);
+  character_ = opened.value();
+}
+
+}  // namespace nt

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/character/retarget.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/base/det_math.h"
+#include "tests/support/drawn_character.h"
+
+namespace nt {
+namespace {
+
+// A character with its retargeter and the memory of both.
+class Stage {
+ public:
+  explicit Stage(RetargetSettings settings = unsmoothed(), bool fins = true, int u_num = 3, int l_num = 15)
+      : drawn_(fins, u_num, l_num) {
+    auto opened = open_character(drawn_.bytes(), Limits{});
+    EXPECT_TRUE(opened.ok()) << opened.status().message;
+    character_ = opened.value();
+    Arena measure;
+    EXPECT_EQ(Retarget::create(measure, character_, settings).value(), nullptr);
+    memory_.resize(measure.used() + kAlignment);
+    Arena arena({reinterpret_cast<std::byte*>(align_up(reinterpret_cast<std::size_t>(memory_.data()))), measure.used()});
+    auto made = Retarget::create(arena, character_, settings);
+    EXPECT_TRUE(made.ok()) << made.status().message;
+    retarget_ = made.value();
+    retarget_->start(retarget_->lengths().body_len);
+  }
+  static RetargetSettings unsmoothed() {
+    RetargetSettings s;
+    s.smooth = false;
+    return s;
+  }
+  Retarget& operator*() { return *retarget_; }
+  Retarget* operator->() { return retarget_; }
+  const Character& character() const { return character_; }
+  // Triangles that turned over in the last pose (the scene's y is down: the sense at rest is the other one).
+  int inverted() const {
+    int count = 0;
+    const auto t = character_.triangles;
+    const auto v = character_.vertices, w = retarget_->vertices();
+    for (std::size_t i = 0; i < t.size(); i += 3) {
+      const float before = cross(v[t[i + 1]] - v[t[i]], v[t[i + 2]] - v[t[i]]);
+      const float after = cross(w[t[i + 1]] - w[t[i]], w[t[i + 2]] - w[t[i]]);
+      if (before * after >= 0) ++count;
+    }
+    return count;
+  }
+
+ private:
+  test::DrawnCharacter drawn_;
+  std::vector<std::byte> memory_;
+  Character character_;
+  Retarget* retarget_ = nullptr;
+};
+
+// Bends the body: `turn(s)` is added to the bone at share s of the way to the head (1) or tail (-1).
+template <class F>
+Motion bent(Motion m, F turn) {
+  for (int i = 0; i < m.u_num; ++i) m.up_axis_angle[i] += turn((static_cast<float>(i) + 0.5f) / static_cast<float>(m.u_num + 1));
+  m.head_angle += turn(1.0f);
+  for (int i = 0; i < m.l_num; ++i) m.low_axis_angle[i] += turn(-(static_cast<float>(i) + 0.5f) / static_cast<float>(m.l_num + 1));
+  m.tail_angle += turn(-1.0f);
+  return m;
+}
+
+TEST(Retarget, BoneLengthsAddUpToTheAxis) {
+  Stage stage;
+  const BoneLengths& l = stage->lengths();
+  EXPECT_NEAR(l.body_len, 150.0f, 1e-3f);
+  EXPECT_NEAR(l.head_len, 14.0f, 1e-4f);
+  EXPECT_NEAR(l.tail_len, 94.0f / 16, 1e-4f);
+  EXPECT_NEAR(l.l_fin_len, l.r_fin_len, 1e-4f);
+  EXPECT_NEAR(l.l_fin_len, length(Vec2{36, 30}), 1e-3f);
+}
+
+TEST(Retarget, TheRestMotionGivesTheRestPose) {
+  for (const MlsKind kind : {MlsKind::rigid, MlsKind::similarity, MlsKind::affine}) {
+    RetargetSettings settings = Stage::unsmoothed();
+    settings.mls = kind;
+    Stage stage(settings);
+    stage->pose(rest_motion(stage.character()), 0, {});
+    for (std::size_t i = 0; i < stage.character().vertices.size(); ++i) {
+      const Vec2 rest = stage.character().vertices[i], now = stage->vertices()[i];
+      ASSERT_NEAR(now.x, rest.x, 0.15f);  // 1e-3 of the body
+      ASSERT_NEAR(now.y, -rest.y, 0.15f);
+    }
+  }
+}
+
+TEST(Retarget, CentreDirectionScaleAndPlacement) {
+  Stage stage;
+  stage->start(300.0f);  // the fish is 300 px long, the character 150 units: Eq 15 halves the way
+  Motion m = rest_motion(stage.character());
+  m.centre = {200, 100};
+  m.dir_rad = 0;  // to the right of the picture
+  stage->pose(m, 0, {{10, 20}, 3.0f});
+  const ControlPoints& c = stage->control_points();
+  EXPECT_NEAR(c.centre.x, 10 + 3 * 100, 1e-3f);
+  EXPECT_NEAR(c.centre.y, 20 + 3 * 50, 1e-3f);
+  EXPECT_NEAR(c.head.x - c.centre.x, 3 * 56, 0.01f);
+  EXPECT_NEAR(c.head.y - c.centre.y, 0, 0.01f);
+  EXPECT_LT(c.l_fin.y, c.r_fin.y);  // swimming right on the screen its left is up
+}
+
+TEST(Retarget, BonesKeepTheirLengthsAndTakeTheMotionsAngles) {
+  Stage stage;
+  stage->pose(bent(rest_motion(stage.character()), [](float s) { return 0.8f * s; }), 0, {});
+  const ControlPoints& c = stage->control_points();
+  EXPECT_NEAR(length(c.tail - c.low_axis[14]), stage->lengths().tail_len, 1e-3f);
+  EXPECT_NEAR(length(c.up_axis[0] - c.centre), stage->lengths().up_len[0], 1e-3f);
+  const Vec2 bone = c.tail - c.low_axis[14];  // scene: x right, y down
+  EXPECT_NEAR(det::wrap(det::atan2(-bone.y, bone.x) - (-det::kHalfPi - 0.8f)), 0.0f, 1e-3f);
+}
+
+TEST(Retarget, NoTriangleTurnsOverInABodyWave) {
+  Stage stage;
+  const Motion rest = rest_motion(stage.character());
+  for (float phase = 0; phase < det::kTwoPi; phase += 0.3f) {
+    const auto wave = [&](float s) { return (0.1f + 0.5f * det::max(-s, 0.0f)) * det::sin(5 * s + phase); };
+    stage->pose(bent(rest, wave), 0, {});
+    ASSERT_EQ(stage.inverted(), 0) << phase;
+  }
+}
+
+TEST(Retarget, NoFinAngleTurnsATriangleOver) {
+  Stage stage;
+  for (float angle = -7.0f; angle < 7.0f; angle += 0.05f) {
+    Motion m = rest_motion(stage.character());
+    m.l_fin_angle = angle;
+    m.r_fin_angle = -2.0f * angle;
+    stage->pose(m, 0, {});
+    ASSERT_EQ(stage.inverted(), 0) << angle;
+  }
+}
+
+TEST(Retarget, AFoldedFinLiesFartherBackAndOnItsOwnSide) {
+  Stage stage;
+  Motion m = rest_motion(stage.character());
+  stage->pose(m, 0, {});
+  const ControlPoints rest = stage->control_points();
+  m.l_fin_angle = kFoldedLeftFin;
+  m.r_fin_angle = kFoldedRightFin;
+  stage->pose(m, 0, {});
+  const ControlPoints& folded = stage->control_points();
+  EXPECT_GT(folded.l_fin.y, rest.l_fin.y + 2);  // y down: back
+  EXPECT_GT(folded.r_fin.y, rest.r_fin.y + 2);
+  EXPECT_LT(folded.l_fin.x, folded.jun_tl.x);
+  EXPECT_GT(folded.r_fin.x, folded.jun_tr.x);
+}
+
+TEST(Retarget, AFinAngleMovesItsTipByLengthTimesAngle) {
+  Stage stage;
+  Motion m = rest_motion(stage.character());
+  stage->pose(m, 0, {});
+  const ControlPoints before = stage->control_points();
+  m.r_fin_angle += 0.1f;
+  stage->pose(m, 0, {});
+  const ControlPoints& after = stage->control_points();
+  EXPECT_NEAR(length(after.r_fin - before.r_fin), stage->lengths().r_fin_len * 0.1f, 0.02f);
+  EXPECT_LT(after.r_fin.y, before.r_fin.y);  // opens towards the head
+  EXPECT_NEAR(length(after.l_fin - before.l_fin), 0.0f, 1e-3f);
+}
+
+TEST(Retarget, FinRangesHoldTheRestPose) {
+  Stage stage;
+  for (const FinRange r : {stage->left_fin_range(), stage->right_fin_range()}) {
+    EXPECT_GT(r.folded, 0.0f);
+    EXPECT_LT(r.folded, 0.8f);  // at rest 0.88: back by atan2(30, 36)
+    EXPECT_GT(r.open, 1.0f);
+    EXPECT_LT(r.open, det::kPi);
+  }
+}
+
+TEST(Retarget, WithoutFinsTheBodyMoves) {
+  Stage stage(Stage::unsmoothed(), false);
+  Motion m = rest_motion(stage.character());
+  EXPECT_EQ(m.confidence.l_fin, 0.0f);
+  stage->pose(bent(m, [](float s) { return 0.4f * s; }), 0, {});
+  EXPECT_EQ(stage.inverted(), 0);
+}
+
+TEST(Retarget, AMotionWithOtherSamplesIsResampled) {
+  Stage fine(Stage::unsmoothed(), true, 3, 25), coarse(Stage::unsmoothed(), true, 3, 15);
+  const Motion m = bent(rest_motion(coarse.character()), [](float s) { return 0.7f * s; });
+  fine->pose(m, 0, {});
+  coarse->pose(m, 0, {});
+  EXPECT_NEAR(length(fine->control_points().tail - coarse->control_points().tail), 0, 0.5f);
+  EXPECT_NEAR(length(fine->control_points().head - coarse->control_points().head), 0, 1e-3f);
+}
+
+TEST(Retarget, TheFilterSmoothsAndStartsAgain) {
+  RetargetSettings settings;
+  Stage stage(settings);
+  Motion m = rest_motion(stage.character());
+  for (int i = 0; i < 30; ++i) stage->pose(m, 1.0f / 30, {});
+  const Vec2 before = stage->control_points().tail;
+  m.tail_angle += 0.4f;
+  stage->pose(m, 1.0f / 180, {});
+  const float step = length(stage->control_points().tail - before);
+  const float whole = 2 * stage->lengths().tail_len * det::sin(0.2f);
+  EXPECT_GT(step, 0.01f * whole);
+  EXPECT_LT(step, 0.8f * whole);
+  stage->start(stage->lengths().body_len);
+  stage->pose(m, 1.0f / 180, {});
+  EXPECT_NEAR(length(stage->control_points().tail - before), whole, 0.05f * whole);
+}
+
+TEST(Retarget, DirectionAcrossPiDoesNotSpinTheFilteredFish) {
+  Stage stage{RetargetSettings{}};
+  Motion m = rest_motion(stage.character());
+  for (int i = 0; i < 40; ++i) {
+    m.dir_rad = i % 2 == 0 ? 3.1f : -3.1f;  // 0.083 apart
+    stage->pose(m, 1.0f / 30, {});
+    EXPECT_LT(stage->control_points().head.x, stage->control_points().centre.x);
+  }
+}
+
+TEST(Retarget, TooLittleMemoryIsAnError) {
+  test::DrawnCharacter drawn;
+  const auto opened = open_character(drawn.bytes(), Limits{});
+  alignas(64) static std::byte memory[8192];
+  Arena arena(memory);
+  const auto made = Retarget::create(arena, opened.value(), {});
+  ASSERT_FALSE(made.ok());
+  EXPECT_EQ(made.status().code, StatusCode::out_of_memory);
+}
+
+}  // namespace
+}  // namespace nt

@@ -28,8 +28,8 @@ void compare(const cv::Mat& mask) {
   cv::dilate(mask, want, square(3));
   expect_same(to, want, "dilate3");
   for (const int side : {1, 3, 5, 7}) {
-    const OwnedMask opened(mask);
-    nt::open_mask(opened.view(), to.view(), side);
+    OwnedMask opened(mask.cols, mask.rows);
+    nt::open_mask(from.view(), to.view(), opened.view(), side);
     cv::morphologyEx(mask, want, cv::MORPH_OPEN, square(side));
     expect_same(opened, want, "opening by " + std::to_string(side));
   }

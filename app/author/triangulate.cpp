@@ -23,6 +23,7 @@ constexpr float kKeepAway = 0.6f;
 constexpr float kJitter = 0.12f;  // breaks the ties of a regular grid; in grid steps
 constexpr int kRepairs = 10;      // halvings: from 6 px to far under a pixel
 constexpr int kSizings = 6;
+constexpr float kLeastStep = 1.0f;  // finer than the outline's own pixels is noise; also bounds the work
 
 using Edge = std::pair<uint32_t, uint32_t>;
 Edge edge(uint32_t a, uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -194,6 +195,7 @@ Triangulation triangulate_at(const Outline& outline, float step) {
     const std::vector<std::size_t> missing = missing_edges(t.triangles, t.outline_count);
     if (missing.empty()) return t;
     s = halved(s, missing, outline.perimeter());
+    if (s.size() > 3 * static_cast<std::size_t>(count)) break;  // halving does not help: the edges cross
   }
   throw TriangulationError("the figure's outline touches or crosses itself");
 }
@@ -213,13 +215,13 @@ void check_filled(const Triangulation& t) {
 Triangulation triangulate(std::span<const Vec2> points, int vertices_wanted) {
   const Outline outline(points);
   const double area = std::abs(polygon_area2(points)) * 0.5;
-  float step = static_cast<float>(std::sqrt(area / (0.866 * std::max(vertices_wanted, 16))));
+  float step = std::max(kLeastStep, static_cast<float>(std::sqrt(area / (0.866 * std::max(vertices_wanted, 16)))));
   Triangulation t;
   for (int i = 0; i < kSizings; ++i) {
     t = triangulate_at(outline, step);
     const double ratio = static_cast<double>(t.vertices.size()) / vertices_wanted;
     if (ratio > 0.95 && ratio < 1.05) break;
-    step *= static_cast<float>(std::sqrt(ratio));
+    step = std::max(kLeastStep, step * static_cast<float>(std::sqrt(ratio)));
   }
   check_filled(t);
   return t;

@@ -14,39 +14,52 @@ float fraction_between(float from, float to) {
   return d < 0 ? d + 1.0f : d;
 }
 
-// The foot of `p` on segment j of the axis: its place on the segment, and the squared distance.
+// The axis' segments, with what every foot of a perpendicular needs of them.
+struct Segments {
+  Vec2 a[kLast], ab[kLast];
+  float inverse[kLast];  // 1 / |ab|^2
+
+  explicit Segments(const Axis& axis) {
+    for (std::size_t j = 0; j < kLast; ++j) {
+      a[j] = axis.points[j];
+      ab[j] = axis.points[j + 1] - a[j];
+      inverse[j] = 1.0f / det::max(length_sq(ab[j]), 1e-12f);
+    }
+  }
+};
+
+// The foot of `p` on segment j: its place on the segment, and the squared distance.
 struct Foot {
   float u = 0;
   float dist_sq = 1e30f;
 };
 
-Foot foot(const Axis& axis, int j, Vec2 p) {
-  const Vec2 a = axis.points[static_cast<std::size_t>(j)], b = axis.points[static_cast<std::size_t>(j) + 1];
-  const Vec2 ab = b - a;
-  float u = dot(p - a, ab) / det::max(length_sq(ab), 1e-12f);
+Foot foot(const Segments& axis, int j, Vec2 p) {
+  const Vec2 ap = p - axis.a[j];
+  float u = dot(ap, axis.ab[j]) * axis.inverse[j];
   // The end segments go on beyond the axis, so that the caps get places outside [0, 1].
-  u = det::clamp(u, j == 0 ? -1e3f : 0.0f, j == kLast - 1 ? 1e3f : 1.0f);
-  return {u, length_sq(p - (a + ab * u))};
+  if (j != 0 && u < 0) u = 0;
+  if (j != kLast - 1 && u > 1) u = 1;
+  return {u, length_sq(ap - axis.ab[j] * u)};
 }
 
-AlongAxis place_on(const Axis& axis, int j, Foot f, Vec2 p) {
-  const Vec2 a = axis.points[static_cast<std::size_t>(j)], b = axis.points[static_cast<std::size_t>(j) + 1];
+AlongAxis place_on(const Segments& axis, int j, Foot f, Vec2 p) {
   // ab points to the tail; the fish's right is then to the left of ab on the screen: cross(ab, offset) < 0.
-  const bool is_right = cross(b - a, p - a) <= 0;
+  const bool is_right = cross(axis.ab[j], p - axis.a[j]) <= 0;
   const float d = det::sqrt(f.dist_sq);
   return {(static_cast<float>(j) + f.u) / kLast, is_right ? d : -d};
 }
 
 // Continues from `segment`: walks to the locally nearest one, looking past the kinks that a half-corrected axis has.
-AlongAxis nearest_from(const Axis& axis, Vec2 p, int& segment) {
-  constexpr int kLookOn = 6, kLookBack = 3;
-  Foot best;
+AlongAxis nearest_from(const Segments& axis, Vec2 p, int& segment) {
+  constexpr int kLookOn = 5, kLookBack = 2;
   int best_j = segment;
-  for (int j = max_int(segment - 1, 0); j < kLast && j <= best_j + kLookOn; ++j) {
+  Foot best = foot(axis, segment, p);
+  for (int j = segment + 1; j < kLast && j <= best_j + kLookOn; ++j) {
     const Foot f = foot(axis, j, p);
     if (f.dist_sq < best.dist_sq) best = f, best_j = j;
   }
-  for (int j = segment - 2; j >= 0 && j >= best_j - kLookBack; --j) {
+  for (int j = segment - 1; j >= 0 && j >= best_j - kLookBack; --j) {
     const Foot f = foot(axis, j, p);
     if (f.dist_sq < best.dist_sq) best = f, best_j = j;
   }
@@ -85,7 +98,7 @@ bool inside_range(int i, int begin, int end, int n) {  // begin -> end in contou
 }
 
 // Place along the axis of any point, from all segments.
-float place_of(const Axis& axis, Vec2 p) {
+float place_of(const Segments& axis, Vec2 p) {
   Foot best;
   int best_j = 0;
   for (int j = 0; j < kLast; ++j) {
@@ -161,15 +174,16 @@ Vec2 tangent_at(const Axis& axis, float s) {
 
 void project_outline(std::span<const Vec2> contour, Stretch right, const Axis& axis, std::span<AlongAxis> out) {
   const int n = static_cast<int>(contour.size());
+  const Segments segments(axis);
   int segment = 0;
   for (int k = 0; k <= right.count; ++k) {
     const std::size_t i = static_cast<std::size_t>((right.begin + k) % n);
-    out[i] = nearest_from(axis, contour[i], segment);
+    out[i] = nearest_from(segments, contour[i], segment);
   }
   segment = 0;  // the left side, from the head backwards
   for (int k = 1; k < n - right.count; ++k) {
     const std::size_t i = static_cast<std::size_t>((right.begin - k + n) % n);
-    out[i] = nearest_from(axis, contour[i], segment);
+    out[i] = nearest_from(segments, contour[i], segment);
   }
 }
 
@@ -220,9 +234,10 @@ Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px) {
 Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim) {
   Vec2 points[kStations + 2];
   const float reach = 0.25f * axis.length;
+  const Segments segments(axis);
   // The axis may run on past a notched tail: the ends of the outline, not of the axis, say where it is still inside.
-  const int first = clamp_int(static_cast<int>((place_of(axis, head) + trim) * kLast) + 1, 1, kLast / 4);
-  const int last = clamp_int(static_cast<int>((place_of(axis, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1);
+  const int first = clamp_int(static_cast<int>((place_of(segments, head) + trim) * kLast) + 1, 1, kLast / 4);
+  const int last = clamp_int(static_cast<int>((place_of(segments, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1);
   const auto end_point = [&](int at, int inner, Vec2 otherwise) {
     const Vec2 p = axis.points[static_cast<std::size_t>(at)];
     const Vec2 dir = normalised(p - axis.points[static_cast<std::size_t>(inner)]);

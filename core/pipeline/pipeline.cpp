@@ -55,6 +55,7 @@ struct CaptureImpl final : Capture {
   void remember_pose();
   void protect_fish(const FishMask* fish);
   void publish_blobs(int selected);
+  void take_fingerprint();
   void finish(PoseStatus status, StepReport& report);
 };
 
@@ -88,7 +89,6 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   const bool means_something = background->apply(frame.luma, kept ? &keep : nullptr, raw);
   clock.lap(Stage::background);
   report.foreground_share = static_cast<float>(count_bits(raw)) / (static_cast<float>(width) * static_cast<float>(height));
-  hash = hash_bytes(raw.words, static_cast<std::size_t>(raw.words_per_row) * static_cast<std::size_t>(height) * 8, kHashSeed);
   flood_frames = report.foreground_share > kFloodShare ? flood_frames + 1 : 0;
   if (flood_frames >= kFloodFrames) {
     background->restart();
@@ -104,10 +104,6 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   blobs->find(open, min_area);
   if (blobs->runs_dropped()) report.flags |= kRunsDropped;
   if (blobs->blobs_dropped()) report.flags |= kBlobsDropped;
-  for (const Blob& b : blobs->blobs()) {
-    hash = hash_u64(static_cast<uint64_t>(b.area_px), hash);
-    hash = hash_u64(static_cast<uint64_t>(b.box.x0) << 32 | static_cast<uint64_t>(b.box.y0), hash);
-  }
   report.blobs = static_cast<int>(blobs->blobs().size());
   clock.lap(Stage::components);
   return true;
@@ -126,12 +122,12 @@ bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, Step
   if (count < 0) report.flags |= kContourCut;
   contour_count = max_int(count, 0);
   contour_high_water = max_int(contour_high_water, contour_count);
-  const float right = static_cast<float>(width - 1), bottom = static_cast<float>(height - 1);
+  // Two pixels short of the frame's edge the fish may already be cut: its rim is half-transparent.
+  const float right = static_cast<float>(width - 3), bottom = static_cast<float>(height - 3);
   bool touches_edge = false;
   for (int i = 0; i < contour_count; ++i) {
     const Vec2 p = contour[static_cast<std::size_t>(i)];
-    touches_edge |= p.x <= 0 || p.y <= 0 || p.x >= right || p.y >= bottom;
-    hash = hash_u64(static_cast<uint64_t>(p.x) << 32 | static_cast<uint64_t>(p.y), hash);
+    touches_edge |= p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom;
   }
   clock.lap(Stage::outline);
   if (touches_edge) report.status = PoseStatus::partial;
@@ -193,7 +189,19 @@ void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& r
   clock.lap(Stage::motion);
 }
 
+void CaptureImpl::take_fingerprint() {
+  hash = kHashSeed;
+  for (int i = 0; i < raw.words_per_row * height; ++i) hash = hash_u64(raw.words[i], hash);
+  for (const Blob& b : blobs->blobs()) {
+    hash = hash_u64(static_cast<uint64_t>(b.area_px), hash);
+    hash = hash_u64(static_cast<uint64_t>(b.box.x0) << 32 | static_cast<uint64_t>(b.box.y0), hash);
+  }
+  for (const Vec2 p : contour.first(static_cast<std::size_t>(contour_count)))
+    hash = hash_u64(static_cast<uint64_t>(p.x) << 32 | static_cast<uint64_t>(p.y), hash);
+}
+
 void CaptureImpl::finish(PoseStatus status, StepReport& report) {
+  if (settings.fingerprint) take_fingerprint();
   report.status = status;
   if (status == PoseStatus::ok) return;
   pose.status = status;

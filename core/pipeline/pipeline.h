@@ -30,6 +30,7 @@ struct CaptureSettings {
   bool shadows = true;        // Otsu shadow removal, where the background model can have shadows at all
   int lost_after = 30;        // frames without the target until it counts as lost and selection starts anew
   uint64_t seed = 1;          // of the background model's random choices
+  bool fingerprint = false;   // compute integer_hash(); tests compare it between machines
 };
 
 // Bits of StepReport::flags. Each names what was dropped and the limit to raise.
@@ -85,7 +86,7 @@ class Capture {
   std::span<const Vec2> contour() const;         // original outline of the fish, last step; empty without a pose
   std::span<const Vec2> smooth_contour() const;  // its elliptic Fourier reconstruction
   const char* background_name() const;
-  uint64_t integer_hash() const;     // of all integer stages of the last step: masks, runs, blobs, contour
+  uint64_t integer_hash() const;     // of all integer stages of the last step: masks, blobs, contour (settings.fingerprint)
 
   std::size_t bytes_used() const;                // of the memory handed in
   int contour_points_high_water() const;         // against Limits::max_contour_points

@@ -215,6 +215,8 @@ void check_filled(const Triangulation& t) {
 Triangulation triangulate(std::span<const Vec2> points, int vertices_wanted) {
   const Outline outline(points);
   const double area = std::abs(polygon_area2(points)) * 0.5;
+  // Thinner than 2 px on average, or halves that cancel out.
+  if (area < outline.perimeter()) throw TriangulationError("the figure's outline touches or crosses itself");
   float step = std::max(kLeastStep, static_cast<float>(std::sqrt(area / (0.866 * std::max(vertices_wanted, 16)))));
   Triangulation t;
   for (int i = 0; i < kSizings; ++i) {

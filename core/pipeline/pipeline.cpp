@@ -17,6 +17,8 @@ namespace {
 // A lamp switched on, or a camera that was pushed: this share of the picture differs for this many frames.
 constexpr float kFloodShare = 0.4f;
 constexpr int kFloodFrames = 8;
+constexpr int kForgetOrder = 5;          // frames without a pose after which the order of head and tail is open again
+constexpr float kTravelFrames = 5.0f;
 
 struct CaptureImpl final : Capture {
   Limits limits;
@@ -45,6 +47,7 @@ struct CaptureImpl final : Capture {
   Vec2 last_head, last_tail, last_centre, travel;
   float head_log_odds = 0;
   bool has_last = false;
+  int frames_without_pose = 0;
   uint64_t hash = kHashSeed;
 
   bool layout(Arena& arena, int w, int h);
@@ -112,7 +115,7 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
 // The target's outline into `contour`. False when there is none; report.status says why.
 bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, StepReport& report) {
   const Blob& blob = blobs->blobs()[static_cast<std::size_t>(index)];
-  const FishMask fish = refine->fish(frame.luma, background->estimate(), background->weak_threshold(), blob, index,
+  const FishMask fish = refine->fish(frame.luma, background->estimate(), background->noise_sigma(), blob, index,
                                      blobs->runs(), settings.shadows && background->can_have_shadows());
   if (refine->dropped()) report.flags |= kRunsDropped;
   if (fish.shadow_removed) report.flags |= kShadowRemoved;
@@ -161,20 +164,22 @@ void CaptureImpl::publish_blobs(int selected) {
 
 void CaptureImpl::remember_pose() {
   head_log_odds = landmarks->head_log_odds();
-  // Travel over about the last five frames, as a running sum that forgets.
-  travel = has_last ? travel * 0.8f + (pose.centre - last_centre) : Vec2{};
+  // Travel over about the last kTravelFrames, as a running sum that forgets.
+  travel = has_last ? travel * (1.0f - 1.0f / kTravelFrames) + (pose.centre - last_centre) : Vec2{};
   last_head = pose.head, last_tail = pose.tail, last_centre = pose.centre;
   has_last = true;
   if (init_len == 0) init_len = pose.axis_len;
 }
 
 void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& report) {
-  if (target.changed()) has_last = false, travel = {}, head_log_odds = 0;
+  // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
+  if (target.changed() || frames_without_pose > kForgetOrder) has_last = false, head_log_odds = 0;
+  frames_without_pose = 0;
   LandmarkHints hints;
   hints.has_last = has_last;
   hints.last_head = last_head + target.velocity(), hints.last_tail = last_tail + target.velocity();
   hints.head_log_odds = head_log_odds;
-  hints.travel = travel;
+  hints.travel = has_last ? travel : target.velocity() * kTravelFrames;
   const bool found = landmarks->find({contour.data(), static_cast<std::size_t>(contour_count)}, hints, pose);
   clock.lap(Stage::landmarks);
   if (!found) {
@@ -204,6 +209,7 @@ void CaptureImpl::finish(PoseStatus status, StepReport& report) {
   if (settings.fingerprint) take_fingerprint();
   report.status = status;
   if (status == PoseStatus::ok) return;
+  ++frames_without_pose;
   pose.status = status;
   pose.confidence = {};
   contour_count = 0;

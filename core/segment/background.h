@@ -40,8 +40,8 @@ class Background {
   virtual bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) = 0;
   // What the picture would show without the fish, whole frame; valid after the first apply.
   virtual LumaView estimate() const = 0;
-  // Difference from estimate() in grey levels that noise alone hardly reaches.
-  virtual int weak_threshold() const = 0;
+  // Standard deviation of the difference between luma and estimate() where there is no fish, grey levels.
+  virtual float noise_sigma() const = 0;
   // A tank lit from below casts no shadows.
   virtual bool can_have_shadows() const = 0;
 

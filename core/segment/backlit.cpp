@@ -3,6 +3,7 @@
 
 #include "core/base/det_math.h"
 #include "core/segment/difference.h"
+#include "core/segment/noise.h"
 
 namespace nt {
 namespace {
@@ -124,11 +125,11 @@ void Backlit::measure(LumaView luma) {
       ++total;
     }
   }
-  const float sigma = 1.4826f * static_cast<float>(percentile(residuals, total, 0.5f));
-  weak_ = clamp_int(static_cast<int>(4.0f + 3.2f * sigma), 8, 60);
+  // Half a level, because the plane is rounded to whole ones.
+  sigma_ = 0.5f + 1.4826f * static_cast<float>(percentile(residuals, total, 0.5f));
   polarity_ = percentile(levels, total, 0.5f) > 127 ? -1 : 1;
   int inside = 0;
-  for (int v = 0; v <= weak_; ++v) inside += residuals[static_cast<std::size_t>(v)];
+  for (int v = 0; v <= weak_threshold(sigma_); ++v) inside += residuals[static_cast<std::size_t>(v)];
   smooth_share_ = static_cast<float>(inside) / static_cast<float>(total);
 }
 
@@ -138,9 +139,9 @@ bool Backlit::apply(LumaView luma, const BitMask* keep, const BitMask& foregroun
     measure(luma);
     started_ = true;
   }
-  const int strong = settings_.radius > 0 ? settings_.radius : clamp_int(5 * weak_ / 2, 20, 90);
+  const int strong = settings_.radius > 0 ? settings_.radius : clamp_int(5 * weak_threshold(sigma_) / 2, 20, 90);
   mask_of_difference(luma, estimate(), strong, polarity_, foreground);
-  if (const int limit = follow_limit(frames_++, weak_threshold()); limit >= 0)
+  if (const int limit = follow_limit(frames_++, weak_threshold(sigma_)); limit >= 0)
     follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
   return true;
 }

@@ -27,7 +27,7 @@ class Backlit final : public Background {
   void restart() override { started_ = false; }
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
-  int weak_threshold() const override { return weak_; }
+  float noise_sigma() const override { return sigma_; }
   bool can_have_shadows() const override { return false; }
 
   // How well the field is described: share of a pixel grid within the weak threshold of the surface, after the first frame.
@@ -45,7 +45,7 @@ class Backlit final : public Background {
   std::ptrdiff_t stride_ = 0;
   std::span<uint8_t> plane_;
   std::array<float, kCellsX * kCellsY> cells_{};
-  int weak_ = 8;
+  float sigma_ = 2.5f;  // roughness of the field, noise included
   int polarity_ = -1;
   float smooth_share_ = 0;
   bool started_ = false;

@@ -13,6 +13,16 @@
 
 namespace nt {
 
+// Radius within which two values of one background pixel match: 20 at an ordinary camera's sigma 2.5, the paper's value.
+// Quiet clips can afford less. Noisy ones need little more, as two matches among 20 samples are enough.
+inline int match_radius(float sigma) {
+  const float r = sigma < 2.5f ? 10.0f + 4.0f * sigma : 20.0f + 0.8f * (sigma - 2.5f);
+  return clamp_int(static_cast<int>(r), 10, 48);
+}
+
+// Difference from the background's estimate that noise alone hardly reaches.
+inline int weak_threshold(float sigma) { return clamp_int(static_cast<int>(2.0f + 3.2f * sigma), 6, 60); }
+
 class NoiseMeter {
  public:
   void restart() { *this = NoiseMeter{}; }

@@ -7,7 +7,9 @@
 #include "core/base/det_math.h"
 #include "core/segment/clean.h"
 #include "core/segment/difference.h"
+#include "core/segment/noise.h"
 #include "core/segment/shadow.h"
+#include "core/segment/smooth.h"
 
 namespace nt {
 namespace {
@@ -18,6 +20,8 @@ constexpr float kSeparate = 0.78f;
 // A shadow keeps the ground's texture: the slope of luma on background equals their ratio. A fin hides part of it.
 constexpr float kSameTexture = 0.2f;
 
+constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
+constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 constexpr int kKeepMargin = 4;  // even: grow() then ends where it began
 
 LumaView part_of(LumaView whole, const Box& box) {
@@ -88,9 +92,11 @@ Refine* Refine::create(Arena& arena, const Limits& limits) {
   const std::size_t words = static_cast<std::size_t>(words_for(limits.max_width)) * static_cast<std::size_t>(limits.max_height);
   std::span<uint64_t> masks[7];
   for (auto& m : masks) m = arena.take_raw<uint64_t>(words);
+  auto blurred = arena.take_raw<uint8_t>(static_cast<std::size_t>(limits.max_width) * static_cast<std::size_t>(limits.max_height));
   Blobs* blobs = Blobs::create(arena, limits);
   if (self.empty() || blobs == nullptr) return nullptr;
   for (int i = 0; i < 7; ++i) self[0].words_[i] = masks[i];
+  self[0].blurred_ = blurred;
   self[0].blobs_ = blobs;
   return &self[0];
 }
@@ -152,22 +158,51 @@ void Refine::grow(const BitMask& mask, const BitMask& scratch) const {
   }
 }
 
-FishMask Refine::fish(LumaView luma, LumaView background, int weak_threshold, const Blob& blob, int label,
+bool Refine::reaches_border(const BitMask& mask) const {
+  const int last = mask.width - 1;
+  for (int y = 0; y < mask.height; ++y)
+    if (mask.at(0, y) || mask.at(last, y)) return true;
+  return any_in_range(mask, 0, 0, mask.width) || any_in_range(mask, mask.height - 1, 0, mask.width);
+}
+
+FishMask Refine::fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
                       std::span<const Run> runs, bool remove_shadow) {
   dropped_ = false;
-  // Room for what the opening and the strong threshold lost: a tail fin, a fin that just opened.
-  const int margin = max_int(8, max_int(blob.box.width(), blob.box.height()) / 4);
   FishMask result;
-  result.box = grown(blob.box, margin, luma.width, luma.height);
-  const int w = result.box.width(), h = result.box.height(), words = words_for(w);
+  result.box = blob.box;
+  // Room for what the opening and the strong threshold lost: a tail fin, a fin that just opened. Where the fish turns out
+  // to reach farther (the blob was but a part of it) the box grows and the step is done again.
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const int margin = max_int(16, max_int(result.box.width(), result.box.height()) / 3);
+    const Box box = grown(result.box, margin, luma.width, luma.height);
+    const bool whole_frame = box.width() == luma.width && box.height() == luma.height;
+    result = fish_in(box, luma, background, noise_sigma, label, runs, remove_shadow);
+    if (whole_frame || !reaches_border(result.mask)) break;
+  }
+  return result;
+}
+
+FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, float noise_sigma, int label,
+                         std::span<const Run> runs, bool remove_shadow) {
+  FishMask result;
+  result.box = box;
+  const int w = box.width(), h = box.height(), words = words_for(w);
   const auto mask = [&](int i) { return BitMask{words_[i].data(), w, h, words}; };
   const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4), shadow = mask(5),
                 around = mask(6);
-  const LumaView here = part_of(luma, result.box), ground = part_of(background, result.box);
+  const LumaView ground = part_of(background, box);
+  LumaView here = part_of(luma, box);
+  if (noise_sigma > kNoisy) {
+    const ImageView<uint8_t> calm{blurred_.data(), w, h, w};
+    blur_binomial(here, calm);
+    here = {calm.data, w, h, w};
+    noise_sigma *= kBlurred;
+  }
+  const int weak = weak_threshold(noise_sigma);
 
-  paint_seeds(runs, label, result.box, seeds);
-  mask_of_difference(here, ground, weak_threshold, +1, bright);
-  mask_of_difference(here, ground, weak_threshold, -1, dark);
+  paint_seeds(runs, label, box, seeds);
+  mask_of_difference(here, ground, weak, +1, bright);
+  mask_of_difference(here, ground, weak, -1, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
   keep_connected(candidates, seeds, fish);
   combine(around, [&](int i) { return fish.words[i]; });

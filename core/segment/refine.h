@@ -29,11 +29,14 @@ class Refine {
  public:
   static Refine* create(Arena& arena, const Limits& limits);
   // `blob` and `runs` are of the opened mask; `label` is the blob's. `remove_shadow`: the scene can have shadows.
-  FishMask fish(LumaView luma, LumaView background, int weak_threshold, const Blob& blob, int label,
+  FishMask fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
                 std::span<const Run> runs, bool remove_shadow);
   bool dropped() const { return dropped_; }  // runs or blobs did not fit
 
  private:
+  FishMask fish_in(const Box& box, LumaView luma, LumaView background, float noise_sigma, int label,
+                   std::span<const Run> runs, bool remove_shadow);
+  bool reaches_border(const BitMask& mask) const;
   void paint_seeds(std::span<const Run> runs, int label, const Box& box, const BitMask& seeds);
   bool keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out);
   bool find_shadow(LumaView luma, LumaView background, const BitMask& fish, const BitMask& seeds, const BitMask& bright,
@@ -42,6 +45,7 @@ class Refine {
   void grow(const BitMask& mask, const BitMask& scratch) const;
 
   std::span<uint64_t> words_[7];
+  std::span<uint8_t> blurred_;
   Blobs* blobs_ = nullptr;  // of the weak mask in the box
   bool dropped_ = false;
 };

@@ -49,8 +49,6 @@ void Still::restart() {
   noise_.restart();
 }
 
-int Still::weak_threshold() const { return clamp_int(static_cast<int>(2.0f + 3.2f * noise_.sigma()), 6, 60); }
-
 void Still::take_median() {
   uint8_t values[kLearnFrames];
   const std::ptrdiff_t plane = stride_ * height_;
@@ -70,10 +68,9 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
     noise_.restart();  // the learned pictures may lie seconds apart; consecutive frames give the noise
   }
   noise_.add(luma);
-  const int radius = settings_.radius > 0 ? settings_.radius
-                                          : clamp_int(static_cast<int>(12.5f + 3.0f * noise_.sigma()), 12, 48);
+  const int radius = settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
   mask_of_difference(luma, estimate(), radius, 0, foreground);
-  if (const int limit = follow_limit(frames_++, weak_threshold()); limit >= 0)
+  if (const int limit = follow_limit(frames_++, weak_threshold(noise_.sigma())); limit >= 0)
     follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
   return means_something;
 }

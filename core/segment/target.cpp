@@ -22,7 +22,7 @@ float fish_likeness(const Blob& blob) {
   const float filled = static_cast<float>(blob.area_px) / det::max(ellipse, 1.0f);
   const float long_enough = det::clamp((elongation - 1.0f) / 1.5f, 0.0f, 1.0f);
   const float compact = det::clamp((filled - 0.4f) / 0.4f, 0.0f, 1.0f);
-  return (0.05f + 0.95f * long_enough * compact) * (blob.touches_edge ? 0.1f : 1.0f);
+  return (0.05f + 0.95f * long_enough * compact) * (blob.touches_edge ? 0.3f : 1.0f);
 }
 
 // Nearest-centroid matching of the blobs to what was seen before, for the selection only.
@@ -154,8 +154,7 @@ TargetChoice Target::update(std::span<const Blob> blobs) {
   }
   ++frames_since_start_;
   int index = has_target_ ? match(blobs) : -1;
-  const bool may_revise = !chosen_by_user_ && frames_since_start_ <= kAutoFrames;
-  if (!has_target_ || may_revise) {
+  if (!chosen_by_user_) {
     const int best = best_candidate(blobs);
     if (best >= 0 && best != index) {
       float mine = 0, other = 0;
@@ -165,7 +164,8 @@ TargetChoice Target::update(std::span<const Blob> blobs) {
         if (c.blob == best) other = score(c, blobs[static_cast<std::size_t>(c.blob)]);
       }
       const bool plausible = fish_likeness(blobs[static_cast<std::size_t>(best)]) > 0.2f;
-      if (plausible && (!has_target_ || other > 1.5f * mine)) {
+      const float much_better = frames_since_start_ <= kAutoFrames ? 1.5f : 4.0f;
+      if (plausible && (!has_target_ || (index >= 0 && other > much_better * mine))) {
         if (!has_target_) frames_since_start_ = 0;
         take(blobs[static_cast<std::size_t>(best)]);
         index = best;

@@ -4,7 +4,7 @@
 // blobs of one frame -> index of the target's blob, or a status that says why there is none.
 // Selection: the user's click ([F] section 4 leaves the choice to the user), or automatic: the blob that travels and stays
 // fish-shaped, or where nothing travels the largest fish-shaped one. The first choice is made in the first frame that
-// offers one and is revised during the next kAutoFrames.
+// offers one; during the next kAutoFrames a better one takes its place, later only a far better one.
 // Tracking: gated by predicted position and area, survives `lost_after` frames without a match.
 // Memory: a few hundred bytes. Cost: O(blobs).
 #pragma once

@@ -75,11 +75,8 @@ Vibe* Vibe::create(Arena& arena, const BackgroundSettings& settings, int width, 
 
 int Vibe::radius() const {
   if (settings_.radius > 0) return settings_.radius;
-  // 20 at sigma 2.5, the paper's value; quieter clips can afford less, noisy ones need more.
-  return clamp_int(static_cast<int>(12.5f + 3.0f * noise_.sigma()), 12, 48);
+  return match_radius(noise_.sigma());
 }
-
-int Vibe::weak_threshold() const { return clamp_int(static_cast<int>(2.0f + 3.2f * noise_.sigma()), 6, 60); }
 
 void Vibe::learn(LumaView luma) {
   if (!started_) initialise(luma);
@@ -143,7 +140,7 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
     });
     update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
   }
-  if (const int limit = follow_limit(frames_++, weak_threshold()); limit >= 0)
+  if (const int limit = follow_limit(frames_++, weak_threshold(noise_.sigma())); limit >= 0)
     follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
   return true;
 }

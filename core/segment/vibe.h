@@ -32,7 +32,7 @@ class Vibe final : public Background {
   void restart() override;
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
-  int weak_threshold() const override;
+  float noise_sigma() const override { return noise_.sigma(); }
   bool can_have_shadows() const override { return true; }
 
   int radius() const;

@@ -27,6 +27,7 @@ struct LandmarksImpl final : Landmarks {
   std::span<Vec2> smooth;
   Axis axis;
   float log_odds = 0;
+  float area = 0;
   bool was_swapped = false;
   bool found = false;
 
@@ -101,6 +102,7 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   if (n < 16 || n > contour.size()) return false;
   Moments moments = polygon_moments(points);
   const bool clockwise = moments.area > 0;
+  area = det::abs(moments.area);
   for (std::size_t i = 0; i < n; ++i) contour[i] = points[clockwise ? i : n - 1 - i];
   const std::span<const Vec2> c = contour.first(n);
   arc_lengths(c, arc.first(n + 1));
@@ -167,6 +169,7 @@ bool Landmarks::find(std::span<const Vec2> contour, const LandmarkHints& hints, 
   return impl(*this).find_outline(contour, hints, pose);
 }
 float Landmarks::head_log_odds() const { return impl(*this).log_odds; }
+float Landmarks::area_px() const { return impl(*this).area; }
 bool Landmarks::swapped() const { return impl(*this).was_swapped; }
 std::span<const Vec2> Landmarks::smooth_contour() const { return impl(*this).smooth; }
 std::span<const Vec2> Landmarks::midline() const { return impl(*this).axis.points; }

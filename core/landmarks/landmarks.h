@@ -36,6 +36,7 @@ class Landmarks {
   bool find(std::span<const Vec2> contour, const LandmarkHints& hints, FishPose& pose);
 
   float head_log_odds() const;                    // belief after the last find
+  float area_px() const;                          // inside the outline of the last find
   bool swapped() const;                           // the last find reversed the order that the hints had
   std::span<const Vec2> smooth_contour() const;   // elliptic Fourier reconstruction of the last find
   std::span<const Vec2> midline() const;          // dense medial axis of the last find, head to tail

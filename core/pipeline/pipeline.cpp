@@ -36,6 +36,7 @@ struct CaptureImpl final : Capture {
   std::span<BlobView> views;
 
   int contour_count = 0;
+  Box fish_box;  // of the contour
   int contour_high_water = 0;
   int view_count = 0;
   int flood_frames = 0;
@@ -130,6 +131,9 @@ bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, Step
   bool touches_edge = false;
   for (int i = 0; i < contour_count; ++i) {
     const Vec2 p = contour[static_cast<std::size_t>(i)];
+    if (i == 0) fish_box = {static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.x), static_cast<int>(p.y)};
+    fish_box.x0 = min_int(fish_box.x0, static_cast<int>(p.x)), fish_box.x1 = max_int(fish_box.x1, static_cast<int>(p.x) + 1);
+    fish_box.y0 = min_int(fish_box.y0, static_cast<int>(p.y)), fish_box.y1 = max_int(fish_box.y1, static_cast<int>(p.y) + 1);
     touches_edge |= p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom;
   }
   clock.lap(Stage::outline);
@@ -182,7 +186,7 @@ void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& r
   hints.travel = has_last ? travel : target.velocity() * kTravelFrames;
   const bool found = landmarks->find({contour.data(), static_cast<std::size_t>(contour_count)}, hints, pose);
   clock.lap(Stage::landmarks);
-  if (!found) {
+  if (!found || !target.observe(fish_box, pose.centre, landmarks->area_px())) {
     report.status = PoseStatus::occluded;
     return;
   }

@@ -71,12 +71,20 @@ int Target::best_candidate(std::span<const Blob> blobs) const {
   return best;
 }
 
-// The blob that continues the track: near the predicted place, of about the same area.
+// The blob that continues the track: the largest within the fish's predicted box, else one near the predicted place and
+// of about the same area.
 int Target::match(std::span<const Blob> blobs) const {
-  int best = -1;
-  float best_cost = 1.6f;
   const float patience = 1.0f + 0.2f * static_cast<float>(min_int(lost_frames_, 15));
-  const Vec2 predicted = centroid_ + velocity_ * static_cast<float>(min_int(lost_frames_ + 1, 5));
+  const Vec2 moved = velocity_ * static_cast<float>(min_int(lost_frames_ + 1, 5));
+  const Vec2 predicted = centroid_ + moved;
+  int best = -1, largest = 0;
+  for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
+    const Blob& blob = blobs[static_cast<std::size_t>(i)];
+    if (inside(box_, blob.centroid - moved, 0.1f * length_ * patience) && blob.area_px > largest)
+      largest = blob.area_px, best = i;
+  }
+  if (static_cast<float>(largest) > 0.1f * area_) return best;
+  float best_cost = 1.6f;
   for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
     const float d = length(blob.centroid - predicted) / length_;
@@ -85,7 +93,7 @@ int Target::match(std::span<const Blob> blobs) const {
     const float cost = d / patience + 0.35f * det::abs(det::log(ratio));
     if (cost < best_cost) best_cost = cost, best = i;
   }
-  return best;
+  return best_cost < 1.6f ? best : -1;
 }
 
 int Target::requested(std::span<const Blob> blobs) {
@@ -119,29 +127,42 @@ void Target::take(const Blob& blob) {
   lost_frames_ = merged_frames_ = 0;
   centroid_ = blob.centroid;
   velocity_ = {};
+  box_ = blob.box;
   area_ = static_cast<float>(blob.area_px);
+  area_known_ = false;
   length_ = length_of(blob);
 }
 
 TargetChoice Target::accept(std::span<const Blob> blobs, int index) {
   const Blob& blob = blobs[static_cast<std::size_t>(index)];
-  const float area = static_cast<float>(blob.area_px);
-  if (!blob.touches_edge && area > 1.8f * area_ && ++merged_frames_ <= lost_after_) {
-    centroid_ = centroid_ + velocity_;  // swim on through the crossing
-    return {index, PoseStatus::occluded};
+  last_centroid_ = centroid_, last_velocity_ = velocity_, last_gap_ = lost_frames_ + 1;
+  lost_frames_ = 0;
+  box_ = blob.box;
+  move_to(blob.centroid);
+  if (blob.touches_edge) area_ = det::max(static_cast<float>(blob.area_px), 0.7f * area_);
+  return {index, blob.touches_edge ? PoseStatus::partial : PoseStatus::ok};
+}
+
+void Target::move_to(Vec2 centre) {
+  const Vec2 step = (centre - last_centroid_) * (1.0f / static_cast<float>(last_gap_));
+  velocity_ = lerp(last_velocity_, step, 0.4f);
+  centroid_ = centre;
+}
+
+bool Target::observe(const Box& box, Vec2 centre, float area_px) {
+  constexpr float kMerged = 1.6f;  // fins that open add at most a third
+  if (!area_known_) area_ = area_px, area_known_ = true;
+  if (area_px > kMerged * area_ && ++merged_frames_ <= lost_after_) {
+    centroid_ = last_centroid_ + last_velocity_ * static_cast<float>(last_gap_);  // swim on through the crossing
+    velocity_ = last_velocity_;
+    return false;
   }
   merged_frames_ = 0;
-  const Vec2 step = (blob.centroid - centroid_) * (1.0f / static_cast<float>(lost_frames_ + 1));
-  velocity_ = lerp(velocity_, step, 0.4f);
-  centroid_ = blob.centroid;
-  lost_frames_ = 0;
-  if (blob.touches_edge) {
-    area_ = det::max(area, 0.7f * area_);
-    return {index, PoseStatus::partial};
-  }
-  area_ += (area - area_) * 0.1f;
-  length_ += (length_of(blob) - length_) * 0.1f;
-  return {index, PoseStatus::ok};
+  box_ = box;
+  move_to(centre);
+  area_ += (area_px - area_) * 0.3f;
+  length_ += (static_cast<float>(max_int(box.width(), box.height())) - length_) * 0.3f;
+  return true;
 }
 
 TargetChoice Target::update(std::span<const Blob> blobs) {
@@ -165,7 +186,9 @@ TargetChoice Target::update(std::span<const Blob> blobs) {
       }
       const bool plausible = fish_likeness(blobs[static_cast<std::size_t>(best)]) > 0.2f;
       const float much_better = frames_since_start_ <= kAutoFrames ? 1.5f : 4.0f;
-      if (plausible && (!has_target_ || (index >= 0 && other > much_better * mine))) {
+      // A part of the fish that is tracked already is no other fish.
+      const bool elsewhere = !has_target_ || !inside(box_, blobs[static_cast<std::size_t>(best)].centroid, 0);
+      if (plausible && elsewhere && (!has_target_ || (index >= 0 && other > much_better * mine))) {
         if (!has_target_) frames_since_start_ = 0;
         take(blobs[static_cast<std::size_t>(best)]);
         index = best;

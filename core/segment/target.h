@@ -34,6 +34,9 @@ class Target {
   void select_auto() { *this = Target(lost_after_); }
 
   TargetChoice update(std::span<const Blob> blobs);
+  // What the refined outline says of the fish in this frame; its blob may have been only a part of it, or have held its
+  // shadow. False when the outline suddenly encloses much more: the fish has merged with something.
+  bool observe(const Box& box, Vec2 centre, float area_px);
 
   // True in the frame in which another fish became the target: beliefs about the last one are void.
   bool changed() const { return changed_; }
@@ -61,6 +64,7 @@ class Target {
   int match(std::span<const Blob> blobs) const;
   int requested(std::span<const Blob> blobs);
   void take(const Blob& blob);
+  void move_to(Vec2 centre);
   TargetChoice accept(std::span<const Blob> blobs, int index);
 
   std::array<Candidate, kCandidates> candidates_{};
@@ -75,8 +79,12 @@ class Target {
   int merged_frames_ = 0;
   int lost_after_ = 30;
   Vec2 centroid_, velocity_;
+  Vec2 last_centroid_, last_velocity_;  // before this frame
+  int last_gap_ = 1;                    // frames between last_centroid_ and this frame
+  Box box_;                             // of the whole fish, as last observed
   float area_ = 0;
-  float length_ = 0;  // about four standard deviations of the blob
+  bool area_known_ = false;             // observed whole, not only as a blob
+  float length_ = 0;                    // of the fish, pixels, roughly
 };
 
 }  // namespace nt

@@ -12,7 +12,7 @@
 namespace nt {
 namespace {
 
-constexpr int kHeldFrames = 3;       // a frame or two without a pose is ordinary: nothing is shown of it
+constexpr int kHeldFrames = 3;  // a frame or two without a pose is ordinary: nothing is shown of it
 constexpr int kFadingFrames = 10;
 constexpr float kFadedAlpha = 0.35f;
 

@@ -17,7 +17,8 @@ const std::vector<std::string> kKinds = {"sim", "file"};
 const std::vector<std::string> kSimKeys = {"scene", "seed", "size", "fps", "frames"};
 
 std::string one_of(const std::string& what, const std::string& wrong, const std::vector<std::string>& names) {
-  return what + " '" + wrong + "'; did you mean '" + nearest_name(wrong, names) + "'? (there are: " + joined(names) + ")";
+  return what + " '" + wrong + "'; did you mean '" + nearest_name(wrong, names) + "'? (there are: " + joined(names) +
+         ")";
 }
 
 void set_sim_key(CameraSpec& spec, const std::string& key, const std::string& value) {

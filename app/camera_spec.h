@@ -19,9 +19,9 @@ namespace nt {
 
 struct CameraSpec {
   enum class Kind : uint8_t { sim, file } kind = Kind::sim;
-  TankSettings tank;      // sim
-  int64_t frames = -1;    // sim: where it ends; -1 = never
-  std::string path;       // file
+  TankSettings tank;    // sim
+  int64_t frames = -1;  // sim: where it ends; -1 = never
+  std::string path;     // file
 };
 
 CameraSpec parse_camera_spec(const std::string& text);

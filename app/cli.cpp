@@ -51,7 +51,10 @@ std::string explain(const CLI::App& command, const CLI::ParseError& error) {
   for (const std::string& word : command.remaining()) {
     if (!word.starts_with("-")) return name + "'" + word + "' is not expected here";
     const std::string option = word.substr(0, word.find('='));
-    return name + "unknown option " + option + "; did you mean " + nearest_name(option, option_names(command)) + "?";
+    const std::string nearest = nearest_name(option, option_names(command));
+    if (edit_distance(option, nearest) <= 2)
+      return name + "unknown option " + option + "; did you mean " + nearest + "?";
+    return name + "unknown option " + option + " (there are: " + joined(option_names(command)) + ")";
   }
   return name + first_line(error.what()) + " ('neontetra " + command.get_name() + " --help' explains it)";
 }

@@ -41,28 +41,38 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
   const auto text = [&command](const char* name, auto&& take, const char* type, const char* help) {
     return command.add_option_function<std::string>(name, take, help)->type_name(type)->option_text(type);
   };
-  text("-c,--camera", [&o](const std::string& s) { o.camera = parse_camera_spec(s); }, "SPEC",
-       "where frames come from: sim[:scene=NAME][,seed=N][,size=WxH][,fps=N][,frames=N] is the simulated tank, "
-       "file:PATH (or just PATH) a video or image sequence")
+  text(
+      "-c,--camera", [&o](const std::string& s) { o.camera = parse_camera_spec(s); }, "SPEC",
+      "where frames come from: sim[:scene=NAME][,seed=N][,size=WxH][,fps=N][,frames=N] is the simulated tank, "
+      "file:PATH (or just PATH) a video or image sequence")
       ->required();
-  text("--work-size", [&o](const std::string& s) { o.work = parse_size("--work-size", s); }, "WxH",
-       "largest frame to work on; never larger than the source (default 960x544; the tank: sim:size=WxH)");
-  text("--fps", [&o](const std::string& s) { o.fps = parse_number("--fps", s, 0.01, 100000); }, "N",
-       "the true frame rate, where the file's own is wrong");
-  text("--frames", [&o](const std::string& s) { o.frames = parse_integer("--frames", s, 0, 1'000'000'000); }, "N",
-       "stop after N frames (default 0: all)");
-  text("--background", [&o](const std::string& s) { o.background = parse_background(s); }, "MODEL",
-       "vibe (moving fish), still[:PICTURE] (empty-tank picture, or the clip's median), backlit (fish on an even bright "
-       "or dark field), auto (tests the clip and says why; default)");
-  text("--select", [&o](const std::string& s) { o.select = parse_select(s); }, "X,Y",
-       "the fish nearest to this pixel of the source video, or auto: the one that moves and stays fish-shaped (default)");
-  text("--harmonics", [&o](const std::string& s) { o.harmonics = static_cast<int>(parse_integer("--harmonics", s, 1, 16)); },
-       "N", "elliptic Fourier harmonics of the outline (default 5)");
-  text("--seed",
-       [&o](const std::string& s) {
-         o.seed = static_cast<uint64_t>(parse_integer("--seed", s, 0, std::numeric_limits<int64_t>::max()));
-       },
-       "N", "of the background model's random choices; the same seed gives the same result (default 1)");
+  text(
+      "--work-size", [&o](const std::string& s) { o.work = parse_size("--work-size", s); }, "WxH",
+      "largest frame to work on; never larger than the source (default 960x544; the tank: sim:size=WxH)");
+  text(
+      "--fps", [&o](const std::string& s) { o.fps = parse_number("--fps", s, 0.01, 100000); }, "N",
+      "the true frame rate, where the file's own is wrong");
+  text(
+      "--frames", [&o](const std::string& s) { o.frames = parse_integer("--frames", s, 0, 1'000'000'000); }, "N",
+      "stop after N frames (default 0: all)");
+  text(
+      "--background", [&o](const std::string& s) { o.background = parse_background(s); }, "MODEL",
+      "vibe (moving fish), still[:PICTURE] (empty-tank picture, or the clip's median), backlit (fish on an even bright "
+      "or dark field), auto (tests the clip and says why; default)");
+  text(
+      "--select", [&o](const std::string& s) { o.select = parse_select(s); }, "X,Y",
+      "the fish nearest to this pixel of the source video, or auto: the one that moves and stays fish-shaped "
+      "(default)");
+  text(
+      "--harmonics",
+      [&o](const std::string& s) { o.harmonics = static_cast<int>(parse_integer("--harmonics", s, 1, 16)); }, "N",
+      "elliptic Fourier harmonics of the outline (default 5)");
+  text(
+      "--seed",
+      [&o](const std::string& s) {
+        o.seed = static_cast<uint64_t>(parse_integer("--seed", s, 0, std::numeric_limits<int64_t>::max()));
+      },
+      "N", "of the background model's random choices; the same seed gives the same result (default 1)");
 }
 
 }  // namespace nt

@@ -18,7 +18,7 @@ namespace {
 
 volatile std::sig_atomic_t stop_asked = 0;
 
-constexpr int kSmallestSide = 32;         // an outline needs some 16 points
+constexpr int kSmallestSide = 32;  // an outline needs some 16 points
 
 Frame frame_of(const cv::Mat& luma) {
   Frame frame;
@@ -64,10 +64,14 @@ BackgroundKind Session::choose_model(const CaptureOptions& options) {
   using Kind = BackgroundOption::Kind;
   why_ = "asked for";
   switch (options.background.kind) {
-    case Kind::vibe: return BackgroundKind::vibe;
-    case Kind::still: return BackgroundKind::still;
-    case Kind::backlit: return BackgroundKind::backlit;
-    case Kind::automatic: break;
+    case Kind::vibe:
+      return BackgroundKind::vibe;
+    case Kind::still:
+      return BackgroundKind::still;
+    case Kind::backlit:
+      return BackgroundKind::backlit;
+    case Kind::automatic:
+      break;
   }
   const BackgroundChoice choice = choose_background(spread_frames(*camera_));
   why_ = choice.why;
@@ -100,9 +104,7 @@ void Session::learn(const CaptureOptions& options, BackgroundKind kind) {
   }
 }
 
-float Session::scale() const {
-  return static_cast<float>(info().source_width) / static_cast<float>(info().width);
-}
+float Session::scale() const { return static_cast<float>(info().source_width) / static_cast<float>(info().width); }
 
 void Session::count_gap(const Frame& frame) {
   if (statistics_.frames == 0 || frame.sequence <= frame_.sequence + 1) return;

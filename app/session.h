@@ -28,8 +28,8 @@ class Session {
 
   Camera& camera() { return *camera_; }
   Capture& capture() { return *capture_; }
-  const Frame& frame() const { return frame_; }          // of the last step
-  const StepReport& report() const { return report_; }   // of the last step
+  const Frame& frame() const { return frame_; }         // of the last step
+  const StepReport& report() const { return report_; }  // of the last step
   const Statistics& statistics() const { return statistics_; }
   const CameraInfo& info() const { return camera_->info(); }
   float scale() const;  // source width / working width

@@ -10,13 +10,13 @@
 namespace nt {
 namespace {
 
-constexpr std::size_t kKeep = 24;           // at least so many frames are kept of a long clip, at most twice as many
-constexpr int kTestWidth = 320;             // averaging also takes sensor noise away
+constexpr std::size_t kKeep = 24;  // at least so many frames are kept of a long clip, at most twice as many
+constexpr int kTestWidth = 320;    // averaging also takes sensor noise away
 constexpr double kSmallestObject = 1.0 / 4000;  // of the frame, as in capture
-constexpr double kFieldShare = 0.80;        // backlit and dark-field rigs measure 0.97-1.00
+constexpr double kFieldShare = 0.80;            // backlit and dark-field rigs measure 0.97-1.00
 constexpr double kPresentShare = 0.90;
-constexpr double kHeldShare = 0.30;         // never uncovered: trout 0.54, sunfish 0.74, fish in a PIV rig 0.90
-constexpr double kCoveredShare = 0.15;      // a fish that swims off covers its first place for under a tenth of the clip
+constexpr double kHeldShare = 0.30;     // never uncovered: trout 0.54, sunfish 0.74, fish in a PIV rig 0.90
+constexpr double kCoveredShare = 0.15;  // a fish that swims off covers its first place for under a tenth of the clip
 
 double median(std::vector<float> values) {
   if (values.empty()) return 0;
@@ -25,7 +25,9 @@ double median(std::vector<float> values) {
   return *middle;
 }
 
-std::vector<float> absolute(const cv::Mat& picture) { return std::vector<float>(cv::Mat(cv::abs(picture)).reshape(1, 1)); }
+std::vector<float> absolute(const cv::Mat& picture) {
+  return std::vector<float>(cv::Mat(cv::abs(picture)).reshape(1, 1));
+}
 
 cv::Mat small_float(const cv::Mat& frame) {
   cv::Mat out;
@@ -148,9 +150,9 @@ std::vector<cv::Mat> spread_frames(Camera& camera) {
     if (!frame) break;
     if (n % step != 0) continue;
     const LumaView& luma = frame->luma;
-    kept.push_back(cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data),
-                           static_cast<std::size_t>(luma.stride))
-                       .clone());
+    kept.push_back(
+        cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data), static_cast<std::size_t>(luma.stride))
+            .clone());
     if (kept.size() < 2 * kKeep) continue;
     for (std::size_t i = 0; i < kKeep; ++i) kept[i] = kept[2 * i];
     kept.resize(kKeep);
@@ -179,8 +181,8 @@ BackgroundChoice choose_background(const std::vector<cv::Mat>& frames) {
     why << "the fish covers its first place for " << percent(covered) << " % of the clip, then leaves it";
     return {BackgroundKind::still, why.str()};
   }
-  why << (covered > 0 ? "the fish soon leaves its first place" : "no fish stays in its first place")
-      << ": covered for " << percent(covered) << " % of the clip";
+  why << (covered > 0 ? "the fish soon leaves its first place" : "no fish stays in its first place") << ": covered for "
+      << percent(covered) << " % of the clip";
   return {BackgroundKind::vibe, why.str()};
 }
 

@@ -83,10 +83,13 @@ void bench(const Options& options) {
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Time every stage on the simulated tank");
   auto options = std::make_shared<Options>();
-  command->add_option("--frames", options->frames, "how many (default 300)")->type_name("N")->check(CLI::Range(2, 1000000));
+  command->add_option("--frames", options->frames, "how many (default 300)")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1000000));
   command->add_option("--work-size", options->size, "frame size (default 960x544)")->type_name("WxH");
   command->add_option("--background", options->background, "vibe, still or backlit (default vibe)")->type_name("MODEL");
-  command->add_option("--character", options->character, "also time how long it takes to pose this one")->type_name("FILE");
+  command->add_option("--character", options->character, "also time how long it takes to pose this one")
+      ->type_name("FILE");
   command->add_flag("--json", options->json, "as JSON");
   command->footer("Example: neontetra bench --character carp.ntchar");
   command->callback([&action, options] { action = [options] { bench(*options); }; });

@@ -76,7 +76,8 @@ void add_capture(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
   command->add_option("--csv", options->csv, "one row of pose a frame ('-' = standard output)")->type_name("FILE");
-  command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")->type_name("FILE.mp4");
+  command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")
+      ->type_name("FILE.mp4");
   command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");
   command->add_option("--truth", options->truth, "the tank's truth in the CSV's columns (sim only)")->type_name("FILE");
   command->add_option("--contact-sheet", options->contact_sheet, "twelve frames of the overlay in one picture")

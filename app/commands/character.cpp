@@ -27,7 +27,9 @@ cv::Point pixel(Vec2 p) { return {static_cast<int>(std::lround(p.x)), static_cas
 
 void draw_points(cv::Mat& picture, const FishPose& pose) {
   const int radius = std::max(3, std::max(picture.cols, picture.rows) / 150);
-  const auto point = [&](Vec2 at, cv::Scalar rgb) { cv::circle(picture, pixel(at), radius, rgb, cv::FILLED, cv::LINE_AA); };
+  const auto point = [&](Vec2 at, cv::Scalar rgb) {
+    cv::circle(picture, pixel(at), radius, rgb, cv::FILLED, cv::LINE_AA);
+  };
   const cv::Scalar cyan(40, 220, 255), yellow(255, 215, 20), green(20, 210, 60);
   point(pose.centre, {255, 255, 255});
   for (int i = 0; i < pose.u_num; ++i) point(pose.up_axis[i], cyan);
@@ -70,9 +72,8 @@ std::string found(const PictureReport& report) {
   text << report.vertices << " vertices, " << report.triangles << " triangles, texture " << report.texture_width << "x"
        << report.texture_height << ", figure cut out by " << (report.from_alpha ? "transparency" : "its edges") << "\n";
   const PoseConfidence& c = report.pose.confidence;
-  const std::pair<const char*, float> landmarks[] = {{"head", c.head},         {"tail", c.tail},
-                                                     {"left fin", c.l_fin},    {"right fin", c.r_fin},
-                                                     {"body axis", c.axis}};
+  const std::pair<const char*, float> landmarks[] = {
+      {"head", c.head}, {"tail", c.tail}, {"left fin", c.l_fin}, {"right fin", c.r_fin}, {"body axis", c.axis}};
   for (const auto& [name, confidence] : landmarks) {
     if (confidence > 0 && confidence < kSure) text << name << ": confidence only " << confidence << "; see --preview\n";
   }
@@ -103,7 +104,9 @@ void add_character(CLI::App& app, Action& action) {
           "--head", [options](const std::string& s) { options->author.head = parse_head_side(s); },
           "where the head is: left, right, up, down, or X,Y in shares of the picture (0.9,0.5)")
       ->type_name("SIDE");
-  command->add_option("--vertices", author.vertices, "of the mesh (default 2500)")->type_name("N")->check(CLI::Range(100, 8000));
+  command->add_option("--vertices", author.vertices, "of the mesh (default 2500)")
+      ->type_name("N")
+      ->check(CLI::Range(100, 8000));
   command->add_option("--u-num", author.u_num, "axis points centre to head (default 3)")
       ->type_name("N")
       ->check(CLI::Range(1, kMaxUpAxis));

@@ -29,7 +29,7 @@ constexpr std::size_t kMemoryBudget = 16'000'000;  // at 960x544, ViBe
 constexpr int64_t kTrialFrames = 60;               // of the tank, to fill the high-water marks
 
 struct Finding {
-  const char* key;     // in the JSON
+  const char* key;  // in the JSON
   std::string value;
   bool good = true;
   std::string advice;  // when it is not
@@ -70,8 +70,8 @@ Finding memory() {
   const std::size_t bytes = Capture::bytes_needed(limits, CaptureSettings{});
   char text[160];
   std::snprintf(text, sizeof text, "%.2f MB at %dx%d (max_runs %d, max_blobs %d, max_contour_points %d)",
-                static_cast<double>(bytes) * 1e-6, limits.max_width, limits.max_height, limits.max_runs, limits.max_blobs,
-                limits.max_contour_points);
+                static_cast<double>(bytes) * 1e-6, limits.max_width, limits.max_height, limits.max_runs,
+                limits.max_blobs, limits.max_contour_points);
   return {"core_memory", text, bytes <= kMemoryBudget, "more than 16 MB: lower the limits in core/base/limits.h"};
 }
 
@@ -84,11 +84,12 @@ Finding trial() {
   }
   const Statistics& statistics = session.statistics();
   char text[160];
-  std::snprintf(text, sizeof text, "%s; at most %d of %d contour points, %d of %d blobs; %lld allocations after frame 0",
-                summary_line(statistics).c_str(), session.capture().contour_points_high_water(),
-                Limits{}.max_contour_points, statistics.most_blobs, Limits{}.max_blobs,
-                static_cast<long long>(statistics.allocations_after_frame_0));
-  return {"trial_run", text, statistics.allocations_after_frame_0 == 0, "core allocated memory while running: report this"};
+  std::snprintf(
+      text, sizeof text, "%s; at most %d of %d contour points, %d of %d blobs; %lld allocations after frame 0",
+      summary_line(statistics).c_str(), session.capture().contour_points_high_water(), Limits{}.max_contour_points,
+      statistics.most_blobs, Limits{}.max_blobs, static_cast<long long>(statistics.allocations_after_frame_0));
+  return {"trial_run", text, statistics.allocations_after_frame_0 == 0,
+          "core allocated memory while running: report this"};
 }
 
 std::vector<Finding> look() {

@@ -45,8 +45,8 @@ class Live {
         actor_pane_(options.layout == "beside" ? beside(camera_pane_) : camera_pane_),
         overlay_(camera_pane_),
         hud_(kFirstTextPicture + 1),
-        display_(open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width,
-                                  actor_pane_.height)),
+        display_(
+            open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height)),
         period_ns_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {}
 
   void run() {
@@ -82,12 +82,21 @@ class Live {
         paused_ = !paused_;
         next_frame_ns_ = steady_now_ns();
         break;
-      case 'b': session_.capture().relearn(); break;
-      case 'n': session_.capture().select_next(); break;
-      case 'r': toggle_recording(); break;
+      case 'b':
+        session_.capture().relearn();
+        break;
+      case 'n':
+        session_.capture().select_next();
+        break;
+      case 'r':
+        toggle_recording();
+        break;
       case 'q':
-      case 27: quit_ = true; break;
-      default: break;
+      case 27:
+        quit_ = true;
+        break;
+      default:
+        break;
     }
     hud_due_ns_ = 0;
   }
@@ -136,7 +145,7 @@ class Live {
     compose();
     ++drawn_;
     update_hud(now_ns);
-    hud_.draw(scene_, {8, static_cast<float>(scene_.height()) - 70});
+    hud_.draw(scene_, {8, static_cast<float>(scene_.height()) - 90});
     display_->draw(scene_);
   }
 
@@ -145,16 +154,16 @@ class Live {
     const Statistics& statistics = session_.statistics();
     const double seconds = static_cast<double>(now_ns - hud_last_ns_) * 1e-9;
     char lines[400];
-    int used = std::snprintf(lines, sizeof lines, "%.0f frames/s, %.0f drawn/s, %lld dropped%s%s\n",
-                             static_cast<double>(statistics.frames - hud_frames_) / seconds,
-                             static_cast<double>(drawn_ - hud_drawn_) / seconds,
-                             static_cast<long long>(statistics.dropped), paused_ ? ", paused" : "",
-                             recording_ != nullptr ? ", recording" : "");
-    used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used), "%.2f ms:",
-                          statistics.total.quantile_ns(0.5) * 1e-6);
+    int used =
+        std::snprintf(lines, sizeof lines, "%.0f frames/s, %.0f drawn/s, %lld dropped%s%s\n",
+                      static_cast<double>(statistics.frames - hud_frames_) / seconds,
+                      static_cast<double>(drawn_ - hud_drawn_) / seconds, static_cast<long long>(statistics.dropped),
+                      paused_ ? ", paused" : "", recording_ != nullptr ? ", recording" : "");
+    used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used),
+                          "%.2f ms:", statistics.total.quantile_ns(0.5) * 1e-6);
     for (std::size_t s = 0; s < kStages; ++s) {
-      used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used), " %s %.2f", kStageNames[s],
-                            statistics.stages[s].quantile_ns(0.5) * 1e-6);
+      used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used), "%s %s %.2f",
+                            s == kStages / 2 ? "\n" : "", kStageNames[s], statistics.stages[s].quantile_ns(0.5) * 1e-6);
     }
     hud_.set(std::string(lines) + "\n" + kKeys);
     hud_last_ns_ = now_ns, hud_frames_ = statistics.frames, hud_drawn_ = drawn_;
@@ -182,18 +191,22 @@ class Live {
 }  // namespace
 
 void add_live(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("live", "Open a window: the camera beside the character that swims like the fish");
+  CLI::App* command =
+      app.add_subcommand("live", "Open a window: the camera beside the character that swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
   command->add_option("--character", options->character, "a character file, or a picture with a transparent ground")
       ->type_name("FILE")
       ->required();
-  command->add_option("--layout", options->layout, "beside: camera left, character right; behind: character over the camera")
+  command
+      ->add_option("--layout", options->layout,
+                   "beside: camera left, character right; behind: character over the camera")
       ->type_name("beside|behind")
       ->check(CLI::IsMember({"beside", "behind"}));
   command->add_option("--record-to", options->record_to, "what r records: PREFIX-1.csv and PREFIX-1.mp4, then -2, ...")
       ->type_name("PREFIX");
-  command->add_option("--json", options->json, "report of the run at its end ('-' = standard output)")->type_name("FILE");
+  command->add_option("--json", options->json, "report of the run at its end ('-' = standard output)")
+      ->type_name("FILE");
   command->footer(std::string("Keys: ") + kKeys + "\nExample: neontetra live -c sim --character carp.ntchar");
   command->callback([&action, options] { action = [options] { Live(*options).run(); }; });
 }

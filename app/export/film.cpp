@@ -8,14 +8,16 @@ Film::Film(const std::string& video_path, const std::string& sheet_path, int wid
   if (!video_path.empty()) video_ = std::make_unique<VideoWriter>(video_path, width, height, fps);
 }
 
-void Film::add(const Scene& scene) {
+void Film::add(const Scene& scene, int times) {
   if (!wanted()) return;
   if (display_ == nullptr) display_ = open_headless_display(width_, height_);
   display_->draw(scene);
   const std::span<const uint8_t> rgb = display_->pixels();
-  if (video_ != nullptr) video_->add(rgb);
-  if (!sheet_path_.empty()) sheet_.add(rgb, width_, height_);
-  ++frames_;
+  for (int i = 0; i < times; ++i) {
+    if (video_ != nullptr) video_->add(rgb);
+    if (!sheet_path_.empty()) sheet_.add(rgb, width_, height_);
+    ++frames_;
+  }
 }
 
 void Film::finish() {

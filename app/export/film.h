@@ -17,8 +17,8 @@ class Film {
   // Empty paths are not written. All scenes have the size width x height.
   Film(const std::string& video_path, const std::string& sheet_path, int width, int height, double fps);
   bool wanted() const { return video_ != nullptr || !sheet_path_.empty(); }
-  void add(const Scene& scene);
-  void finish();  // writes what is left; throws UserError
+  void add(const Scene& scene, int times = 1);  // shown for so many frames of the video
+  void finish();                                // writes what is left; throws UserError
   int64_t frames() const { return frames_; }
 
  private:

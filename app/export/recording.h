@@ -19,7 +19,10 @@ class Recording {
   // Once a video frame.
   void add(Session& session, const Scene& scene) {
     csv_.add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
-    film_.add(scene);
+    // Frames that were dropped are filled, so the video keeps the fish's own speed.
+    const uint64_t sequence = session.frame().sequence;
+    film_.add(scene, last_ < 0 ? 1 : static_cast<int>(static_cast<int64_t>(sequence) - last_));
+    last_ = static_cast<int64_t>(sequence);
   }
   void finish() {
     csv_.close();
@@ -29,6 +32,7 @@ class Recording {
  private:
   PoseCsv csv_;
   Film film_;
+  int64_t last_ = -1;  // sequence number of the frame added last
 };
 
 }  // namespace nt

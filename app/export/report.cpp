@@ -49,7 +49,8 @@ Json report_json(Session& session) {
   Json json;
   json["format"] = kReportFormat;
   json["program"] = "neontetra " NEONTETRA_VERSION;
-  json["camera"] = {{"name", info.name}, {"width", info.source_width}, {"height", info.source_height}, {"fps", info.fps}};
+  json["camera"] = {
+      {"name", info.name}, {"width", info.source_width}, {"height", info.source_height}, {"fps", info.fps}};
   json["working_size"] = {{"width", info.width}, {"height", info.height}};
   json["background"] = {{"name", session.capture().background_name()}, {"why", session.background_why()}};
   json["frames"] = statistics.frames;
@@ -71,7 +72,9 @@ std::string summary_line(const Statistics& statistics) {
   char line[160];
   std::snprintf(line, sizeof line, "%lld frames, %lld with a pose (%.0f %%); %.2f ms a frame",
                 static_cast<long long>(statistics.frames), static_cast<long long>(statistics.poses),
-                statistics.frames > 0 ? 100.0 * static_cast<double>(statistics.poses) / static_cast<double>(statistics.frames) : 0,
+                statistics.frames > 0
+                    ? 100.0 * static_cast<double>(statistics.poses) / static_cast<double>(statistics.frames)
+                    : 0,
                 statistics.total.quantile_ns(0.5) * 1e-6);
   return line;
 }

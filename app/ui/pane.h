@@ -9,8 +9,8 @@
 namespace nt {
 
 struct Pane {
-  Vec2 corner;      // scene pixels, top left
-  float scale = 1;  // scene pixels a working pixel
+  Vec2 corner;                // scene pixels, top left
+  float scale = 1;            // scene pixels a working pixel
   int width = 0, height = 0;  // scene pixels
 
   // Pixel centres lie at integers in the frame, the scene's origin is its corner.

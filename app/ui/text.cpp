@@ -25,7 +25,8 @@ void Text::set(const std::string& lines) {
   std::istringstream in(lines);
   for (std::string row; std::getline(in, row);) rows.push_back(row);
   int width = 1;
-  for (const std::string& row : rows) width = std::max(width, cv::getTextSize(row, kFont, kFontScale, 1, nullptr).width);
+  for (const std::string& row : rows)
+    width = std::max(width, cv::getTextSize(row, kFont, kFontScale, 1, nullptr).width);
   rgba_ = cv::Mat::zeros(static_cast<int>(rows.size()) * kLineHeight + kMargin, width + 2 * kMargin, CV_8UC4);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const cv::Point at(kMargin, static_cast<int>(i + 1) * kLineHeight - kMargin / 2);

@@ -8,12 +8,15 @@
 namespace nt {
 
 std::unique_ptr<Display> open_window(const std::string& title, int width, int height) {
+  // libwayland, which SDL asks first, complains on stderr when this is not set.
+  ::setenv("XDG_RUNTIME_DIR", "/nonexistent", 0);
   std::unique_ptr<Display> display = open_sdl_display(title, width, height);
   const std::string name = display->name();
   const bool unseen = name.find("offscreen") != std::string::npos || name.find("dummy") != std::string::npos;
   if (unseen && std::getenv("SDL_VIDEODRIVER") == nullptr) {
-    throw UserError("no window: there is no display; start from a desktop session or a text console, or make a video "
-                    "with 'neontetra animate'");
+    throw UserError(
+        "no window: there is no display; start from a desktop session or a text console, or make a video "
+        "with 'neontetra animate'");
   }
   return display;
 }

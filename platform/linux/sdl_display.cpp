@@ -50,7 +50,12 @@ class SdlWindow {
   SdlWindow(const SdlWindow&) = delete;
   SdlWindow& operator=(const SdlWindow&) = delete;
   SDL_Window* get() const { return window_; }
-  void use() const { SDL_GL_MakeCurrent(window_, context_); }
+  // SDL does nothing when it believes the context to be current, and it does not see that an off-screen display took over
+  // (live records through one): let go first.
+  void use() const {
+    SDL_GL_MakeCurrent(nullptr, nullptr);
+    SDL_GL_MakeCurrent(window_, context_);
+  }
 
  private:
   SDL_Window* window_ = nullptr;

@@ -17,7 +17,9 @@ UserError error_of(const std::string& text) {
   return UserError("");
 }
 
-bool says(const UserError& error, const std::string& part) { return std::string(error.what()).find(part) != std::string::npos; }
+bool says(const UserError& error, const std::string& part) {
+  return std::string(error.what()).find(part) != std::string::npos;
+}
 
 TEST(CameraSpec, TankIs960x544At30UnlessToldOtherwise) {
   const CameraSpec spec = parse_camera_spec("sim");
@@ -64,9 +66,7 @@ TEST(CameraSpec, SaysWhatNumbersAreAllowed) {
   EXPECT_TRUE(says(error_of("sim:size=0x544"), "whole number from 1"));
 }
 
-TEST(CameraSpec, AMissingBareFileIsNoCamera) {
-  EXPECT_EQ(error_of("no/such/clip.avi").exit_code, 3);
-}
+TEST(CameraSpec, AMissingBareFileIsNoCamera) { EXPECT_EQ(error_of("no/such/clip.avi").exit_code, 3); }
 
 TEST(CameraSpec, TheTankIsNotShrunk) {
   EXPECT_THROW((void)open_camera(parse_camera_spec("sim:frames=1"), Size{320, 200}, 0), UserError);

@@ -122,7 +122,7 @@ TEST(Cli, AFullDiskKeepsCompleteRows) {
   expect_one_line(neontetra("capture --background vibe -c sim:frames=80 --csv /dev/full"), 1, "/dev/full");
   expect_one_line(neontetra("capture --background vibe -c sim:frames=3 --json /dev/full"), 1, "/dev/full");
   expect_one_line(neontetra("bench --frames 3 >/dev/full"), 1, "standard output");
-  expect_one_line(neontetra("capture --background vibe -c sim:frames=80 --csv " + dir / "cut.csv", 20), 1, "cut.csv");
+  expect_one_line(neontetra("capture --background vibe -c sim:frames=250 --csv " + dir / "cut.csv", 20), 1, "cut.csv");
   const CsvTable cut(dir / "cut.csv");
   ASSERT_GT(cut.rows(), 5u);
   for (std::size_t row = 0; row < cut.rows(); ++row) EXPECT_EQ(cut.cells(row), cut.columns());
@@ -131,8 +131,10 @@ TEST(Cli, AFullDiskKeepsCompleteRows) {
 
 TEST(Cli, AFullDiskWhileWritingTheVideo) {
   const TempDir dir;
-  expect_one_line(neontetra("capture --background vibe -c sim:frames=60 --overlay " + dir / "cut.mp4", 200), 1, "cut.mp4");
-  expect_one_line(neontetra("capture --background vibe -c sim:frames=3 --overlay " + dir / "no/such/folder.mp4"), 1, "folder.mp4");
+  expect_one_line(neontetra("capture --background vibe -c sim:frames=60 --overlay " + dir / "cut.mp4", 200), 1,
+                  "cut.mp4");
+  expect_one_line(neontetra("capture --background vibe -c sim:frames=3 --overlay " + dir / "no/such/folder.mp4"), 1,
+                  "folder.mp4");
 }
 
 TEST(Cli, AReaderThatStopsEarlyIsNoError) {

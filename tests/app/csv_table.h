@@ -24,7 +24,9 @@ class CsvTable {
   std::size_t columns() const { return columns_.size(); }
   std::size_t rows() const { return rows_.size(); }
   std::size_t cells(std::size_t row) const { return rows_[row].size(); }
-  const std::string& text(std::size_t row, const std::string& column) const { return rows_[row].at(columns_.at(column)); }
+  const std::string& text(std::size_t row, const std::string& column) const {
+    return rows_[row].at(columns_.at(column));
+  }
   std::optional<double> number(std::size_t row, const std::string& column) const {
     const std::string& cell = text(row, column);
     return cell.empty() ? std::nullopt : std::optional<double>(std::stod(cell));

@@ -82,7 +82,7 @@ TEST(EndToEnd, TheSameSeedGivesTheSamePoses) {
 
 TEST(EndToEnd, TheDrawingSwims) {
   const TempDir dir;
-  const Outcome run = neontetra("animate -c sim:frames=90,seed=2 --background vibe --character " + kCarp + " --out " +
+  const Outcome run = neontetra("animate -c sim:frames=150,seed=2 --background vibe --character " + kCarp + " --out " +
                                 dir / "swim.mp4" + " --contact-sheet " + dir / "sheet.png");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(std::filesystem::exists(dir / "sheet.png"));
@@ -97,14 +97,16 @@ TEST(EndToEnd, TheDrawingSwims) {
     frame.copyTo(last);
     ++frames;
   }
-  EXPECT_EQ(frames, 89 * 2 + 1);
+  EXPECT_EQ(frames, 149 * 2 + 1);
   EXPECT_GT(moving, 60);
 }
 
 TEST(EndToEnd, SideBySideIsTwiceAsWide) {
   const TempDir dir;
   ASSERT_EQ(neontetra("animate -c sim:frames=5 --inbetweens 0 --side-by-side --character " + kCarp + " --out " +
-                      dir / "two.mp4").exit_code, 0);
+                      dir / "two.mp4")
+                .exit_code,
+            0);
   cv::VideoCapture video(dir / "two.mp4");
   EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 1920);
   EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 544);

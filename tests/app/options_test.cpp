@@ -18,7 +18,8 @@ TEST(Options, BackgroundModels) {
   EXPECT_EQ(parse_background("still").picture, "");
   EXPECT_EQ(parse_background("still:empty.png").kind, Kind::still);
   EXPECT_EQ(parse_background("still:empty.png").picture, "empty.png");
-  for (const char* wrong : {"vibes", "still:", "", "backlit:x.png"}) EXPECT_THROW(parse_background(wrong), UserError) << wrong;
+  for (const char* wrong : {"vibes", "still:", "", "backlit:x.png"})
+    EXPECT_THROW(parse_background(wrong), UserError) << wrong;
 }
 
 TEST(Options, SelectionIsAutomaticOrAPoint) {
@@ -32,9 +33,11 @@ TEST(Options, SelectionIsAutomaticOrAPoint) {
 
 TEST(Options, SizesAndColours) {
   EXPECT_EQ(parse_size("size", "640x360").height, 360);
-  for (const char* wrong : {"640", "x360", "640x", "640x-1", "99999x10"}) EXPECT_THROW(parse_size("size", wrong), UserError) << wrong;
+  for (const char* wrong : {"640", "x360", "640x", "640x-1", "99999x10"})
+    EXPECT_THROW(parse_size("size", wrong), UserError) << wrong;
   EXPECT_FLOAT_EQ(parse_colour("#ff8000").g, 128 / 255.0f);
-  for (const char* wrong : {"red", "#12345", "#12345g", "1234567"}) EXPECT_THROW(parse_colour(wrong), UserError) << wrong;
+  for (const char* wrong : {"red", "#12345", "#12345g", "1234567"})
+    EXPECT_THROW(parse_colour(wrong), UserError) << wrong;
 }
 
 TEST(NearestName, CountsSwapsAsOne) {

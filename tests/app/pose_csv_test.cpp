@@ -26,11 +26,13 @@ FishPose pose_at(float angle) {
 
 TEST(PoseCsv, HeaderIsTheIssues) {
   const std::string header = pose_csv_header(3, 15);
-  EXPECT_TRUE(header.starts_with("frame,t_s,status,centre_x,centre_y,dir_rad,head_x,head_y,tail_x,tail_y,"
-                                 "l_fin_x,l_fin_y,r_fin_x,r_fin_y,jun_tl_x,jun_tl_y,jun_tr_x,jun_tr_y,"
-                                 "jun_bl_x,jun_bl_y,jun_br_x,jun_br_y,up_axis_1_x,up_axis_1_y,"));
-  EXPECT_TRUE(header.ends_with(",low_axis_15_x,low_axis_15_y,centre_confidence,head_confidence,tail_confidence,"
-                               "l_fin_confidence,r_fin_confidence,axis_confidence\n"));
+  EXPECT_TRUE(
+      header.starts_with("frame,t_s,status,centre_x,centre_y,dir_rad,head_x,head_y,tail_x,tail_y,"
+                         "l_fin_x,l_fin_y,r_fin_x,r_fin_y,jun_tl_x,jun_tl_y,jun_tr_x,jun_tr_y,"
+                         "jun_bl_x,jun_bl_y,jun_br_x,jun_br_y,up_axis_1_x,up_axis_1_y,"));
+  EXPECT_TRUE(
+      header.ends_with(",low_axis_15_x,low_axis_15_y,centre_confidence,head_confidence,tail_confidence,"
+                       "l_fin_confidence,r_fin_confidence,axis_confidence\n"));
 }
 
 TEST(PoseCsv, PointsAreInSourcePixelsAndEmptyWhereNotSeen) {

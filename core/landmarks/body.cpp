@@ -38,7 +38,9 @@ Ends find_ends(std::span<const Vec2> contour, std::span<const float> arc, Vec2 b
 int notch_of_tail(std::span<const Vec2> contour, std::span<const float> arc, Vec2 barycentre, int tail) {
   constexpr float kReach = 0.15f;    // of the perimeter: the width of a spread caudal fin, measured along its edge
   constexpr float kDip = 0.985f;     // the notch must lie this much nearer to the barycentre than the lesser tip
+  constexpr float kAsFar = 0.85f;    // both tips of a caudal fin are about as far away
   const int n = static_cast<int>(contour.size());
+  const float farthest = distance_sq(contour, tail, barycentre);
   int best_notch = tail;
   float best_tip = 0;
   for (int step : {1, -1}) {
@@ -50,6 +52,8 @@ int notch_of_tail(std::span<const Vec2> contour, std::span<const float> arc, Vec
       if (gap(arc, i, tail) > kReach) break;
       const float d = distance_sq(contour, i, barycentre);
       if (d < nearest_d) nearest_d = d, nearest = i;
+      // The corner of a dorsal or anal fin is a second tip too, but lies much nearer.
+      if (d < kAsFar * kAsFar * farthest) continue;
       if (d * kDip * kDip > nearest_d && d > best_tip) best_tip = d, best_notch = nearest;
     }
   }

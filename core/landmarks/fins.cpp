@@ -8,8 +8,7 @@ namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
 constexpr float kSnout = 0.05f, kPeduncle = 0.8f;
-constexpr float kStandsOut = 0.035f;         // of the length: less is a bulge of the body or outline noise
-constexpr float kHollow = 0.008f;            // of the length: depth of a junction
+constexpr float kStandsOut = 0.032f;         // of the length, above the body: less is outline noise or a folded fin
 
 // One side of the outline as a sequence from head to tail.
 struct SideWalk {
@@ -20,15 +19,11 @@ struct SideWalk {
 // Depth of `p` below the line from q to r, positive on the side of the fish's axis.
 float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
 
+constexpr float kBreadth = 0.02f;            // of the length, half-way up
 constexpr float kTipRound = 0.06f;            // of the length: as near to the tip the outline turns round it
 
-struct Junction {
-  int k = 0;
-  float hollow = 0;  // pixels
-};
-
 // The junction between the tip (position k_tip of the walk) and P at position k_end (0: head, last: tail).
-Junction find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward,
+int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward,
                        float tip_round) {
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const int step = k_end > k_tip ? 1 : -1;
@@ -45,22 +40,19 @@ Junction find_junction(std::span<const Vec2> contour, const SideWalk& walk, int 
   // [F]: the point of QR farthest from the line QR, on its inner side. Where the fin's edge is straight that is noise, and
   // R itself is the corner between fin and body.
   const float sign = step > 0 ? inward : -inward;
-  Junction best{k_r, 0};
+  int best = k_r;
   float deepest = 0.25f * tip_round;
   for (int k = k_tip; (k_r - k) * step >= 0; k += step) {
     const float depth = depth_below(q, point(k_r), point(k), sign);
-    if (depth > deepest) deepest = depth, best.k = k;
+    if (depth > deepest) deepest = depth, best = k;
   }
-  // A real junction is a hollow: it lies inside the line from the tip to the body a little farther on.
-  int k_on = best.k;
-  while (k_on != k_end && length_sq(point(k_on) - point(best.k)) < 4 * tip_round * tip_round) k_on += step;
-  best.hollow = depth_below(q, point(k_on), point(best.k), sign);
   return best;
 }
 
 }  // namespace
 
-Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right, float axis_length, Side side) {
+Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right,
+             const StationValues& body, float axis_length, Side side) {
   const int n = static_cast<int>(contour.size());
   const bool is_right = side == Side::right;
   const SideWalk walk{right.begin, is_right ? right.count : n - right.count, is_right ? 1 : -1, n};
@@ -76,22 +68,27 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
     if (a.s >= kFrom && a.s <= kTo && a.d > farthest) farthest = a.d, k_tip = k;
   }
   if (k_tip < 0) return fin;
-  // Walking head -> tail, the axis lies to the right hand on the left side and to the left hand on the right side;
-  // cross() is positive clockwise, so inward is +1 on the right side.
-  const float inward = is_right ? 1.0f : -1.0f;
-  const float tip_round = kTipRound * axis_length;
   // P stands for head and tail, but no root of a pectoral fin lies in the snout or in the caudal fin.
   int k_head = k_tip, k_tail = k_tip;
   while (k_head > 0 && place(k_head).s > kSnout) --k_head;
   while (k_tail < walk.count && place(k_tail).s < kPeduncle) ++k_tail;
-  const Junction top = find_junction(contour, walk, k_tip, k_head, inward, tip_round);
-  const Junction bottom = find_junction(contour, walk, k_tip, k_tail, inward, tip_round);
+  // Walking head -> tail, the axis lies to the right hand on the left side and to the left hand on the right side;
+  // cross() is positive clockwise, so inward is +1 on the right side.
+  const float inward = is_right ? 1.0f : -1.0f;
+  const float tip_round = kTipRound * axis_length;
+  const int top = find_junction(contour, walk, k_tip, k_head, inward, tip_round);
+  const int bottom = find_junction(contour, walk, k_tip, k_tail, inward, tip_round);
+  fin.tip = walk.at(k_tip), fin.top = walk.at(top), fin.bottom = walk.at(bottom);
+  const int station = static_cast<int>(place(k_tip).s * (kStations - 1) + 0.5f);
+  const float flank = body[static_cast<std::size_t>(station)];
+  const float stands_out = (farthest - flank) / axis_length;
+  // How broad it is half-way up: a spur of outline noise is a pixel or two.
+  int k_up = k_tip, k_down = k_tip;
+  while (k_up > 0 && place(k_up).d > 0.5f * (flank + farthest)) --k_up;
+  while (k_down < walk.count && place(k_down).d > 0.5f * (flank + farthest)) ++k_down;
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
-  const float height = -depth_below(point(top.k), point(bottom.k), point(k_tip), inward);
-  fin.tip = walk.at(k_tip), fin.top = walk.at(top.k), fin.bottom = walk.at(bottom.k);
-  const float stands_out = height / axis_length;
-  const float hollow = det::max(top.hollow, bottom.hollow) / axis_length;
-  fin.seen = stands_out > kStandsOut && hollow > kHollow && top.k < k_tip && bottom.k > k_tip;
+  const float breadth = length(point(k_up) - point(k_down)) / axis_length;
+  fin.seen = stands_out > kStandsOut && breadth > kBreadth && top < k_tip && bottom > k_tip;
   if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
   return fin;
 }

@@ -5,8 +5,8 @@
 // Tip: the farthest point from the axis on its side, between 15 % and 60 % of the length behind the head, so that the
 // caudal fin is never taken. Junction (P = head for the top one, tail for the bottom one; Q = tip): R between P and Q
 // with the largest angle PQR, then the contour point between Q and R farthest from the line QR.
-// Differs: every body has a farthest point, so a fin counts as seen only when it stands out from the chord between its
-// junctions and at least one junction is a real hollow of the outline; a folded fin is reported as not seen.
+// Differs: every body has a farthest point, so a fin counts as seen only when its tip stands out from the body, whose
+// half-widths without fins come from outline/midline; a folded fin is reported as not seen.
 // Cost: O(contour points).
 #pragma once
 #include <cstdint>
@@ -27,6 +27,8 @@ struct Fin {
 
 enum class Side : uint8_t { left, right };
 
-Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right, float axis_length, Side side);
+// `body`: half-widths without fins.
+Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right,
+             const StationValues& body, float axis_length, Side side);
 
 }  // namespace nt

@@ -14,8 +14,7 @@ namespace {
 
 // Shape and travel of consecutive frames are nearly the same observation, so each later frame adds only a part.
 constexpr float kRepeatedEvidence = 0.2f;
-// The centring step may move a station this far (share of the length) before the fins are cut off.
-constexpr float kFirstShift = 0.02f;
+constexpr int kRounds = 3;  // of centring; a fourth changes the tank's figures by nothing
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kTrim = 0.05f;
 
@@ -33,7 +32,7 @@ struct LandmarksImpl final : Landmarks {
 
   bool find_outline(std::span<const Vec2> points, const LandmarkHints& hints, FishPose& pose);
   bool decide_order(const LandmarkHints& hints);
-  void measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left, FinCut& right_cut);
+  void measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body, FishPose& pose) const;
   void sample_axis(Vec2 barycentre, FishPose& pose) const;
 };
 
@@ -63,13 +62,10 @@ bool LandmarksImpl::decide_order(const LandmarkHints& hints) {
   return belief >= 0;
 }
 
-void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, FishPose& pose, FinCut& left_cut,
-                                 FinCut& right_cut) {
+void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body, FishPose& pose) const {
   const std::span<const AlongAxis> places = along.first(c.size());
-  const Fin l = find_fin(c, places, right, axis.length, Side::left);
-  const Fin r = find_fin(c, places, right, axis.length, Side::right);
-  left_cut = {l.seen, l.top, l.bottom};
-  right_cut = {r.seen, r.top, r.bottom};
+  const Fin l = find_fin(c, places, right, body, axis.length, Side::left);
+  const Fin r = find_fin(c, places, right, body, axis.length, Side::right);
   pose.confidence.l_fin = l.confidence, pose.confidence.r_fin = r.confidence;
   pose.l_fin = at(c, l.tip), pose.jun_tl = at(c, l.top), pose.jun_bl = at(c, l.bottom);
   pose.r_fin = at(c, r.tip), pose.jun_tr = at(c, r.top), pose.jun_br = at(c, r.bottom);
@@ -120,19 +116,17 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   const int tail = notch_of_tail(c, arcs, moments.centroid, kept ? ends.tail : ends.head);
   axis = medial_axis(fourier, t(head), t(tail), smooth);
 
-  // Ours: centre the axis in the original outline, first carefully, then without the fins.
+  // Ours: centre the axis in the original outline.
   const Stretch right{head, index_gap(head, tail, static_cast<int>(n))};
-  axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
-  project_outline(c, right, axis, along);
-  axis = centred(axis, width_profile(along.first(n), right, {}, {}), kFirstShift * axis.length);
-  axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
-  FinCut left_cut, right_cut;
-  for (int round = 0; round < 2; ++round) {
+  axis = joined_to_ends(axis, at(c, head), at(c, tail), kTrim);
+  StationValues body{};
+  for (int round = 0; round < kRounds; ++round) {
     project_outline(c, right, axis, along);
-    measure_fins(c, right, pose, left_cut, right_cut);
-    axis = centred(axis, width_profile(along.first(n), right, left_cut, right_cut), 0);
-    axis = extended_to_outline(axis, c, at(c, head), at(c, tail), kTrim);
+    const WidthProfile widths = width_profile(along.first(n), right);
+    body = body_half_width(widths);
+    axis = extended_to_outline(centred(axis, widths, body), c, at(c, head), at(c, tail), kTrim);
   }
+  measure_fins(c, right, body, pose);
 
   sample_axis(moments.centroid, pose);
   pose.head = axis.points[0], pose.tail = axis.points[kStations - 1];

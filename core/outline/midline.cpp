@@ -8,6 +8,13 @@ namespace nt {
 namespace {
 
 constexpr int kLast = kStations - 1;
+// A ray that leaves the outline farther than this from its end point (share of the length) left through a flank.
+constexpr float kNearEnd = 0.06f;
+constexpr int kFinsFrom = 7, kFinsTo = 42;  // stations where pectoral fins can stand
+// Of the smoother: the axis may bend within about four stations; the body's width changes over ten or more.
+constexpr float kAxisStiffness = 1.0f, kBodyStiffness = 60.0f;
+// A mean half-width above kFinWidth body + kFinExcess length is a fin's.
+constexpr float kFinWidth = 1.05f, kFinExcess = 0.004f;
 
 float fraction_between(float from, float to) {
   const float d = to - from;
@@ -92,11 +99,6 @@ void fill_gaps(std::array<float, kStations>& side) {
   }
 }
 
-bool inside_range(int i, int begin, int end, int n) {  // begin -> end in contour order, ends excluded
-  const int to_i = (i - begin + n) % n, to_end = (end - begin + n) % n;
-  return to_i > 0 && to_i < to_end;
-}
-
 // Place along the axis of any point, from all segments.
 float place_of(const Segments& axis, Vec2 p) {
   Foot best;
@@ -106,6 +108,27 @@ float place_of(const Segments& axis, Vec2 p) {
     if (f.dist_sq < best.dist_sq) best = f, best_j = j;
   }
   return det::clamp((static_cast<float>(best_j) + best.u) / kLast, 0.0f, 1.0f);
+}
+
+// Stations between which the axis can be trusted. It may run on past a notched tail or stop short of a thin one: the ends of
+// the outline, not of the axis, say where it is still inside.
+struct Reliable {
+  int first, last;
+};
+
+Reliable reliable_part(const Axis& axis, Vec2 head, Vec2 tail, float trim) {
+  const Segments segments(axis);
+  return {clamp_int(static_cast<int>((place_of(segments, head) + trim) * kLast) + 1, 1, kLast / 4),
+          clamp_int(static_cast<int>((place_of(segments, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1)};
+}
+
+Axis with_ends(const Axis& axis, Reliable part, Vec2 head, Vec2 tail) {
+  Vec2 points[kStations + 2];
+  int count = 0;
+  points[count++] = head;
+  for (int j = part.first; j <= part.last; ++j) points[count++] = axis.points[static_cast<std::size_t>(j)];
+  points[count++] = tail;
+  return resampled({points, static_cast<std::size_t>(count)});
 }
 
 // Distance from `p` along unit `dir` to the nearest crossing with the contour that lies within `reach`; -1 if none.
@@ -187,68 +210,66 @@ void project_outline(std::span<const Vec2> contour, Stretch right, const Axis& a
   }
 }
 
-WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right, const FinCut& left_cut, const FinCut& right_cut) {
+WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right) {
   WidthProfile widths;
   const int n = static_cast<int>(along.size());
   for (int side = 0; side < 2; ++side) {
     auto& profile = widths.side[side];
     for (float& v : profile) v = -1;
     const bool is_right = side == 1;
-    const FinCut& cut = is_right ? right_cut : left_cut;
     const int begin = is_right ? right.begin : (right.begin + right.count) % n;
     const int count = is_right ? right.count : n - right.count;
-    const int cut_begin = is_right ? cut.top : cut.bottom, cut_end = is_right ? cut.bottom : cut.top;
-    int from = begin;
-    for (int k = 1; k <= count; ++k) {
-      const int i = (begin + k) % n;
-      if (cut.active && inside_range(i, cut_begin, cut_end, n)) continue;
-      add_edge(profile, along[static_cast<std::size_t>(from)], along[static_cast<std::size_t>(i)], is_right ? 1.0f : -1.0f);
-      from = i;
+    for (int k = 0; k < count; ++k) {
+      const AlongAxis a = along[static_cast<std::size_t>((begin + k) % n)];
+      const AlongAxis b = along[static_cast<std::size_t>((begin + k + 1) % n)];
+      add_edge(profile, a, b, is_right ? 1.0f : -1.0f);
     }
     fill_gaps(profile);
   }
   return widths;
 }
 
-Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px) {
-  std::array<float, kStations> shift{}, smooth{};
-  for (std::size_t j = 0; j < kStations; ++j) {
-    shift[j] = 0.5f * (widths.side[1][j] - widths.side[0][j]);
-    if (limit_px > 0) shift[j] = det::clamp(shift[j], -limit_px, limit_px);
-  }
-  // The caps tell nothing: their half-widths end with the outline. 1-2-1 against the outline's pixel steps.
+StationValues body_half_width(const WidthProfile& widths) {
+  StationValues mean;
+  for (std::size_t j = 0; j < kStations; ++j) mean[j] = 0.5f * (widths.side[0][j] + widths.side[1][j]);
+  return lower_envelope(mean, kBodyStiffness);
+}
+
+Axis centred(const Axis& axis, const WidthProfile& widths, const StationValues& body) {
+  StationValues shift, weights;
   for (int j = 0; j < kStations; ++j) {
-    const float a = shift[static_cast<std::size_t>(clamp_int(j - 1, 2, kLast - 2))];
-    const float b = shift[static_cast<std::size_t>(clamp_int(j, 2, kLast - 2))];
-    const float c = shift[static_cast<std::size_t>(clamp_int(j + 1, 2, kLast - 2))];
-    smooth[static_cast<std::size_t>(j)] = 0.25f * a + 0.5f * b + 0.25f * c;
+    const std::size_t i = static_cast<std::size_t>(j);
+    shift[i] = 0.5f * (widths.side[1][i] - widths.side[0][i]);
+    const float mean = 0.5f * (widths.side[1][i] + widths.side[0][i]);
+    const bool has_fin = j >= kFinsFrom && j <= kFinsTo && mean > kFinWidth * body[i] + kFinExcess * axis.length;
+    const bool is_cap = j < 2 || j > kLast - 2;  // half-widths there end with the outline
+    weights[i] = has_fin || is_cap ? 0.0f : 1.0f;
   }
+  shift = smoothed(shift, weights, kAxisStiffness);
   Vec2 moved[kStations];
   for (int j = 0; j < kStations; ++j) {
     const Vec2 forward = tangent_at(axis, static_cast<float>(j) / kLast) * -1.0f;  // towards the head
-    moved[j] = axis.points[static_cast<std::size_t>(j)] + right_of(forward) * smooth[static_cast<std::size_t>(j)];
+    moved[j] = axis.points[static_cast<std::size_t>(j)] + right_of(forward) * shift[static_cast<std::size_t>(j)];
   }
   return resampled(moved);
 }
 
+Axis joined_to_ends(const Axis& axis, Vec2 head, Vec2 tail, float trim) {
+  const Reliable part = reliable_part(axis, head, tail, trim);
+  return with_ends(axis, part, head, tail);
+}
+
 Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim) {
-  Vec2 points[kStations + 2];
-  const float reach = 0.25f * axis.length;
-  const Segments segments(axis);
-  // The axis may run on past a notched tail: the ends of the outline, not of the axis, say where it is still inside.
-  const int first = clamp_int(static_cast<int>((place_of(segments, head) + trim) * kLast) + 1, 1, kLast / 4);
-  const int last = clamp_int(static_cast<int>((place_of(segments, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1);
-  const auto end_point = [&](int at, int inner, Vec2 otherwise) {
+  const Reliable part = reliable_part(axis, head, tail, trim);
+  const float reach = 0.25f * axis.length, near = kNearEnd * axis.length;
+  const auto end_point = [&](int at, int inner, Vec2 end) {
     const Vec2 p = axis.points[static_cast<std::size_t>(at)];
     const Vec2 dir = normalised(p - axis.points[static_cast<std::size_t>(inner)]);
     const float along = ray_to_contour(contour, p, dir, reach);
-    return along >= 0 ? p + dir * along : otherwise;
+    const Vec2 hit = p + dir * along;
+    return along >= 0 && length_sq(hit - end) < near * near ? hit : end;
   };
-  int count = 0;
-  points[count++] = end_point(first, first + 4, head);
-  for (int j = first; j <= last; ++j) points[count++] = axis.points[static_cast<std::size_t>(j)];
-  points[count++] = end_point(last, last - 4, tail);
-  return resampled({points, static_cast<std::size_t>(count)});
+  return with_ends(axis, part, end_point(part.first, part.first + 4, head), end_point(part.last, part.last - 4, tail));
 }
 
 }  // namespace nt

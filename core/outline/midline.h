@@ -13,10 +13,9 @@
 
 #include "core/base/vec2.h"
 #include "core/outline/fourier.h"
+#include "core/outline/smoother.h"
 
 namespace nt {
-
-inline constexpr int kStations = 65;  // axis points from head (0) to tail (64)
 
 struct Axis {
   std::array<Vec2, kStations> points{};
@@ -31,7 +30,7 @@ struct AlongAxis {
 
 // Half-widths at the stations, pixels; both positive. Index 0 = left of the fish, 1 = right.
 struct WidthProfile {
-  std::array<float, kStations> side[2];
+  StationValues side[2];
 };
 
 // A stretch of a contour, from index `begin` onwards `count` points, wrapping around.
@@ -54,19 +53,23 @@ Vec2 tangent_at(const Axis& axis, float s);  // unit, from head to tail
 // the rest is the left side.
 void project_outline(std::span<const Vec2> contour, Stretch right, const Axis& axis, std::span<AlongAxis> out);
 
-// Half-widths from projected outline; between the indices of a cut (a fin's junctions) the chord is taken.
-struct FinCut {
-  bool active = false;
-  int top = 0, bottom = 0;  // contour indices of the junctions, in contour order from head to tail on the right side,
-                            // from tail to head (bottom first) on the left
-};
-WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right, const FinCut& left_cut, const FinCut& right_cut);
+// Half-widths from the projected outline, fins and all.
+WidthProfile width_profile(std::span<const AlongAxis> along, Stretch right);
 
-// Moves every station to the middle between its half-widths; |correction| is held under `limit_px` (0: no limit).
-Axis centred(const Axis& axis, const WidthProfile& widths, float limit_px);
+// The body's half-width without fins: the lower envelope of the mean of both sides (which does not depend on how well the
+// axis is centred).
+StationValues body_half_width(const WidthProfile& widths);
 
-// Lets both ends run straight on (or back) to the contour near its points `head` and `tail`. `trim` of the length before
-// them is taken as unreliable and redrawn.
+// Moves every station to the middle between its half-widths, smoothly. Stations where the outline is wider than `body` have
+// a fin and are bridged.
+Axis centred(const Axis& axis, const WidthProfile& widths, const StationValues& body);
+
+// Draws the axis straight from its reliable part to the outline's end points; `trim` of the length before them is not
+// reliable.
+Axis joined_to_ends(const Axis& axis, Vec2 head, Vec2 tail, float trim);
+
+// As joined_to_ends, but each end runs straight on to where it leaves the contour, if that is near the outline's end point:
+// the farthest point of a blunt snout or a slanting tail lies beside the axis.
 Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim);
 
 }  // namespace nt

@@ -19,6 +19,9 @@ namespace {
 constexpr float kSeparate = 0.78f;
 // A shadow keeps the ground's texture: the slope of luma on background equals their ratio. A fin hides part of it.
 constexpr float kSameTexture = 0.2f;
+// Of fish and shadow together, the part that does not lie under the fish. More than this is the fish itself: a larva whose
+// eyes are much darker than the rest of it.
+constexpr double kLargestShadow = 0.55;
 
 constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
@@ -133,9 +136,10 @@ bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish
   const OtsuSplit split = otsu(histogram);
   const BitMask far = shadow;  // first the class farther from the background, then what is left of the dark
   mask_of_difference(luma, background, split.threshold, 0, far);
-  int bright_seeds = 0, dark_seeds = 0, found = 0;
+  int bright_seeds = 0, dark_seeds = 0, found = 0, total = 0;
   combine(shadow, [&](int i) {
     const uint64_t sure = seeds.words[i] & far.words[i];
+    total += std::popcount(fish.words[i]);
     bright_seeds += std::popcount(sure & bright.words[i]);
     dark_seeds += std::popcount(sure & dark.words[i]);
     const uint64_t near_and_dark = fish.words[i] & dark.words[i] & ~far.words[i];
@@ -144,7 +148,7 @@ bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish
   });
   if (found == 0) return false;
   if (bright_seeds > 2 * dark_seeds) return true;  // a bright fish: what is a little darker than the ground is not it
-  return split.eta > kSeparate && texture_kept(luma, background, shadow);
+  return found < kLargestShadow * total && split.eta > kSeparate && texture_kept(luma, background, shadow);
 }
 
 // Grows what must not be learned by kKeepMargin: the fish's half-transparent rim.

@@ -6,11 +6,8 @@
 namespace nt {
 namespace {
 
-// No fin lies nearer to the body's own line than this, back or ahead: it never crosses the axis.
-constexpr float kLeastOpen = 0.15f;
-constexpr float kMostOpen = det::kPi - 0.35f;
 // Step of the search for a fin's range, and the share of its rest area below which a triangle counts as crushed.
-constexpr float kRangeStep = 0.1f;
+constexpr float kRangeStep = 0.05f;
 constexpr float kCrushedArea = 0.1f;
 
 // Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
@@ -45,6 +42,9 @@ float open_of_angle(float angle_rad, float side) {
 }
 float angle_of_open(float open, float side) { return side > 0 ? open - det::kHalfPi : -det::kHalfPi - open; }
 
+// Which side of the fish fin 0 (left) and fin 1 (right) are on.
+float fish_side(int index) { return index == 0 ? -1.0f : 1.0f; }
+
 }  // namespace
 
 BoneLengths bone_lengths(const Character& character) {
@@ -68,28 +68,6 @@ BoneLengths bone_lengths(const Character& character) {
   l.l_fin_len = character.has_l_fin ? distance(c.jun_tl, c.l_fin) : 0.0f;
   l.r_fin_len = character.has_r_fin ? distance(c.jun_tr, c.r_fin) : 0.0f;
   return l;
-}
-
-Motion rest_motion(const Character& character) {
-  const auto image = [](Vec2 p) { return Vec2{p.x, -p.y}; };
-  const ControlPoints& c = character.rest;
-  FishPose pose;
-  pose.status = PoseStatus::ok;
-  pose.u_num = character.u_num;
-  pose.l_num = character.l_num;
-  pose.centre = image(c.centre);
-  pose.dir = {0.0f, -1.0f};
-  pose.head = image(c.head);
-  pose.tail = image(c.tail);
-  for (int i = 0; i < character.u_num; ++i) pose.up_axis[i] = image(c.up_axis[i]);
-  for (int i = 0; i < character.l_num; ++i) pose.low_axis[i] = image(c.low_axis[i]);
-  pose.jun_tl = image(c.jun_tl), pose.jun_tr = image(c.jun_tr);
-  pose.jun_bl = image(c.jun_bl), pose.jun_br = image(c.jun_br);
-  pose.l_fin = image(c.l_fin), pose.r_fin = image(c.r_fin);
-  pose.confidence = {1, 1, 1, character.has_l_fin ? 1.0f : 0.0f, character.has_r_fin ? 1.0f : 0.0f, 1};
-  Motion m = motion_from_pose(pose, 0, nullptr);
-  m.centre = {};
-  return m;
 }
 
 void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len) {
@@ -160,12 +138,46 @@ bool Retarget::fin_fits(const Fin& fin, float open) {
   return true;
 }
 
+// From the rest pose step by step until a triangle gives way, folding first: no farther back than a fish's folded fin, and
+// the whole no wider than what a fish's fins sweep.
 void Retarget::find_fin_range(int index) {
   const Fin& fin = fins_[index];
+  const float least = det::max(kFishFins.folded, fin.rest_open - kFishFins.width());
   FinRange range{fin.rest_open, fin.rest_open};
-  while (range.folded - kRangeStep > kLeastOpen && fin_fits(fin, range.folded - kRangeStep)) range.folded -= kRangeStep;
-  while (range.open + kRangeStep < kMostOpen && fin_fits(fin, range.open + kRangeStep)) range.open += kRangeStep;
+  for (float next = fin.rest_open; range.folded > least && fin_fits(fin, next); next = det::max(least, next - kRangeStep)) {
+    range.folded = next;
+  }
+  const float most = range.folded + kFishFins.width();
+  for (float next = fin.rest_open; range.open < most && fin_fits(fin, next); next = det::min(most, next + kRangeStep)) {
+    range.open = next;
+  }
   fin_range_[index] = range;
+}
+
+Motion Retarget::rest_motion() const {
+  const auto image = [](Vec2 p) { return Vec2{p.x, -p.y}; };
+  const ControlPoints& c = character_.rest;
+  FishPose pose;
+  pose.status = PoseStatus::ok;
+  pose.u_num = character_.u_num;
+  pose.l_num = character_.l_num;
+  pose.centre = image(c.centre);
+  pose.dir = {0.0f, -1.0f};
+  pose.head = image(c.head);
+  pose.tail = image(c.tail);
+  for (int i = 0; i < character_.u_num; ++i) pose.up_axis[i] = image(c.up_axis[i]);
+  for (int i = 0; i < character_.l_num; ++i) pose.low_axis[i] = image(c.low_axis[i]);
+  pose.confidence = {1, 1, 1, 0, 0, 1};
+  Motion m = motion_from_pose(pose, 0, nullptr);
+  m.centre = {};
+  for (int i = 0; i < 2; ++i) {
+    if (!fins_[i].present) continue;
+    const FinRange range = fin_range_[i];
+    const float share = range.width() > 0.0f ? (fins_[i].rest_open - range.folded) / range.width() : 0.0f;
+    (i == 0 ? m.l_fin_angle : m.r_fin_angle) = angle_of_open(kFishFins.folded + share * kFishFins.width(), fish_side(i));
+    (i == 0 ? m.confidence.l_fin : m.confidence.r_fin) = 1.0f;
+  }
+  return m;
 }
 
 void Retarget::start(float init_len_px) {
@@ -199,10 +211,10 @@ void Retarget::pose_fin(int index, float angle_rad) {
   const Vec2 top = points_[fin.first], bottom = points_[fin.first + 1];
   // How far the body has turned where the fin is rooted; the range of the fin turns with it.
   const float turn = det::wrap(angle_of(bottom - top) - angle_of(rest_[fin.first + 1] - rest_[fin.first]));
-  const float fish_side = index == 0 ? -1.0f : 1.0f;
-  const float open = open_of_angle(angle_rad - turn, fish_side);
-  const float fitted = det::clamp(open, fin_range_[index].folded, fin_range_[index].open);
-  turn_fin(fin, fitted, turn);
+  const float open = det::clamp(open_of_angle(angle_rad - turn, fish_side(index)), kFishFins.folded, kFishFins.open);
+  const FinRange range = fin_range_[index];
+  const float share = (open - kFishFins.folded) / kFishFins.width();
+  turn_fin(fin, range.folded + share * range.width(), turn);
 }
 
 // The tip by Algorithm 4, the rays with it, about the fin's top junction.

@@ -6,10 +6,14 @@
 // head turned to M.dir. The caller may place and zoom the result with `placement`.
 // Steps: body control points from bone lengths and angles (Alg 3) -> moving least squares moves the four junctions ->
 // fin tips (Alg 4) -> Kalman filter per control-point coordinate -> moving least squares moves all vertices.
-// Differs from [F]: only the junctions of the implicit model are deformed; its other vertices are never shown. A fin turns
-// only as far as this drawing's triangles bear (found once, see FinRange): [F] section 6.3 calls the distortion beyond it
-// inevitable. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it turns as a
-// fin and does not bend like a banana after its tip. The filter also runs over the centre and the direction, which [F] leaves to its points in the world.
+// Differs from [F]: only the junctions of the implicit model are deformed; its other vertices are never shown. Algorithm 4
+// gives the drawing's fin the fish's own angle; here the range a fish's fins sweep (kFishFins) is laid over the range this
+// drawing's triangles bear (FinRange, found once), the fish's folded fin on the drawing's folded limit, amplitudes kept
+// where the drawing bears them and shrunk evenly where not. For a drawing is rooted, and at rest opened, otherwise than the
+// fish: the fish's own angle would run into the limit, where [F] section 6.3 calls distortion inevitable and a clamp would
+// hold the fin still. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it
+// turns as a fin and does not bend like a banana after its tip. The filter also runs over the centre and the direction,
+// which [F] leaves to its points in the world.
 // Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 33).
 #pragma once
 #include <span>
@@ -30,9 +34,6 @@ struct BoneLengths {
 };
 BoneLengths bone_lengths(const Character& character);  // Algorithm 1
 
-// M0: the motion that poses the character as it was drawn (swimming up the screen, centre at 0), [F] section 6.2.
-Motion rest_motion(const Character& character);
-
 struct RetargetSettings {
   MlsKind mls = MlsKind::rigid;
   // Weights 1 / |p - v|^(2 alpha). Of 1, 1.5 and 2 on the bundled carp over nine poses, 1.5 keeps the least triangle
@@ -51,7 +52,10 @@ struct Placement {
 // alike, measured from the body where the fin is rooted.
 struct FinRange {
   float folded = 0, open = 0;
+  float width() const { return open - folded; }
 };
+// What a fish's fins sweep: from folded (where Motion puts a fin that is not seen) to straight out. Beyond they stay there.
+inline constexpr FinRange kFishFins{kFoldedRightFin + 1.5707963f, 1.5f};
 
 class Retarget {
  public:
@@ -68,6 +72,9 @@ class Retarget {
   std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
   const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
   const BoneLengths& lengths() const { return lengths_; }
+  // M0: the motion that poses the character as it was drawn (swimming up the screen, centre at 0), [F] section 6.2.
+  Motion rest_motion() const;
+  // Where the drawing's fins go while the fish's go through kFishFins; never wider than that.
   FinRange left_fin_range() const { return fin_range_[0]; }
   FinRange right_fin_range() const { return fin_range_[1]; }
 

@@ -14,7 +14,7 @@ namespace {
 
 // Shape and travel of consecutive frames are nearly the same observation, so each later frame adds only a part.
 constexpr float kRepeatedEvidence = 0.2f;
-constexpr int kRounds = 3;  // of centring; a fourth changes the tank's figures by nothing
+constexpr int kRounds = 2;  // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kTrim = 0.05f;
 

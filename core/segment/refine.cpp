@@ -23,6 +23,7 @@ constexpr float kSameTexture = 0.2f;
 // eyes are much darker than the rest of it.
 constexpr double kLargestShadow = 0.55;
 
+constexpr float kGlow = 0.12f;  // of the fish's own contrast; its fins have a quarter of it and more
 constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 constexpr int kKeepMargin = 4;  // even: grow() then ends where it began
@@ -69,6 +70,21 @@ void for_pixels(const BitMask& mask, F&& f) {
 int difference(LumaView luma, LumaView background, int x, int y) {
   const int d = luma.row(y)[x] - background.row(y)[x];
   return d < 0 ? -d : d;
+}
+
+// Median of |luma - background| over a mask, from every fourth row.
+int median_difference(LumaView luma, LumaView background, const BitMask& mask) {
+  std::array<int, 256> histogram{};
+  int total = 0;
+  for (int y = 0; y < mask.height; y += 4) {
+    for (int i = 0; i < mask.words_per_row; ++i) {
+      for (uint64_t word = mask.row(y)[i]; word != 0; word &= word - 1, ++total)
+        ++histogram[static_cast<std::size_t>(difference(luma, background, 64 * i + std::countr_zero(word), y))];
+    }
+  }
+  int median = 0;
+  for (int below = histogram[0]; 2 * below < total; below += histogram[static_cast<std::size_t>(median)]) ++median;
+  return median;
 }
 
 // Slope of luma on background and the ratio of their means over a mask; false when the ground is too plain to tell.
@@ -202,9 +218,11 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
     here = {calm.data, w, h, w};
     noise_sigma *= kBlurred;
   }
-  const int weak = weak_threshold(noise_sigma);
 
   paint_seeds(runs, label, box, seeds);
+  // Above the noise, and above the glow and the lens blur around a fish of high contrast.
+  const int contrast = median_difference(here, ground, seeds);
+  const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
   mask_of_difference(here, ground, weak, +1, bright);
   mask_of_difference(here, ground, weak, -1, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });

@@ -92,7 +92,7 @@ void Vibe::initialise(LumaView luma) {
   for (int y = 0; y < height_; ++y) {
     std::memcpy(plane_.data() + y * stride_, luma.row(y), static_cast<std::size_t>(width_));
     for (int k = 0; k < kSamples; ++k) {
-      const uint32_t r = random_.below(9);
+      const uint32_t r = k < kMinMatches ? 4 : random_.below(9);  // 4: the pixel itself
       const int dx = static_cast<int>(r % 3) - 1, dy = static_cast<int>(r / 3) - 1;
       const uint8_t* from = luma.row(clamp_int(y + dy, 0, height_ - 1));
       uint8_t* to = sample_row(k, y);
@@ -110,7 +110,8 @@ void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const ui
   uint64_t r = random_.next();
   const int dy = static_cast<int>(random_.below(3)) - 1;
   uint8_t* own = sample_row(static_cast<int>(random_.below(kSamples)), y);
-  uint8_t* other = sample_row(static_cast<int>(random_.below(kSamples)), clamp_int(y + dy, 0, height_ - 1));
+  const int neighbours_plane = kMinMatches + static_cast<int>(random_.below(kSamples - kMinMatches));
+  uint8_t* other = sample_row(neighbours_plane, clamp_int(y + dy, 0, height_ - 1));
   for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
     const uint64_t frozen = foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
     // Two random bits a segment: -1, 0, 0, +1, so that half of the neighbours lie straight above or below.

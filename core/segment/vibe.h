@@ -6,7 +6,8 @@
 // samples and one of a random neighbour's.
 // Differs: the samples are 20 planes of rows, so that a background pixel touches two of them and not 20 bytes; the random
 // choice of the sample is made per row (so memory is walked in streams), of the neighbour per row and 64-pixel segment, of
-// the pixels per pixel from a seeded table. Every pixel's own chances stay those of the paper. R follows the noise (20 at an ordinary camera's).
+// the pixels per pixel from a seeded table. The first two planes hold only a pixel's own past values, never a neighbour's: they
+// nearly always match, so most pixels need no third plane. Otherwise every pixel's chances are those of the paper. R follows the noise (20 at an ordinary camera's).
 // Memory: 21 bytes a pixel and the table. Cost at 960x544: see docs/PERFORMANCE.md.
 #pragma once
 #include <cstdint>

@@ -8,7 +8,7 @@ namespace {
 
 // Step of the search for a fin's range, and the share of its rest area below which a triangle counts as crushed.
 constexpr float kRangeStep = 0.05f;
-constexpr float kCrushedArea = 0.1f;
+constexpr float kCrushedArea = 0.03f;
 
 // Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
 // over to the body.

@@ -141,8 +141,8 @@ bool Backlit::apply(LumaView luma, const BitMask* keep, const BitMask& foregroun
   }
   const int strong = settings_.radius > 0 ? settings_.radius : clamp_int(5 * weak_threshold(sigma_) / 2, 20, 90);
   mask_of_difference(luma, estimate(), strong, polarity_, foreground);
-  if (const int limit = follow_limit(frames_++, weak_threshold(sigma_)); limit >= 0)
-    follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
+  follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(sigma_)),
+                    {plane_.data(), width_, height_, stride_});
   return true;
 }
 

@@ -20,19 +20,26 @@ uint64_t difference_word(const uint8_t* luma, const uint8_t* background, int thr
   return word;
 }
 
-void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, int limit) {
+void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, FollowLimits limits) {
   const ByteLanes d;
   const auto one = hn::Set(d, uint8_t{1});
-  const auto most = hn::Set(d, static_cast<uint8_t>(limit));
+  const auto above = hn::Set(d, static_cast<uint8_t>(limits.above));
+  const auto up_to = hn::Set(d, static_cast<uint8_t>(limits.up_to));
+  const auto down_to = hn::Set(d, static_cast<uint8_t>(limits.down_to));
+  const auto within = [&](auto difference, auto most) {
+    return hn::VecFromMask(d, hn::Eq(hn::Min(difference, most), difference));
+  };
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto v = hn::LoadU(d, luma + i);
     const auto b = hn::LoadU(d, background + i);
     const auto brighter = hn::SaturatedSub(v, b), darker = hn::SaturatedSub(b, v);
-    const auto step = hn::Sub(hn::Min(brighter, one), hn::Min(darker, one));
-    const auto diff = hn::Or(brighter, darker);
-    auto moves = hn::VecFromMask(d, hn::Eq(hn::Min(diff, most), diff));
-    if (frozen != 0) moves = hn::AndNot(lanes_of_bits(d, frozen, i), moves);
-    hn::StoreU(hn::Add(b, hn::And(step, moves)), d, background + i);
+    auto up = hn::And(hn::Min(hn::SaturatedSub(brighter, above), one), within(brighter, up_to));
+    auto down = hn::And(hn::Min(darker, one), within(darker, down_to));
+    if (frozen != 0) {
+      const auto still = lanes_of_bits(d, frozen, i);
+      up = hn::AndNot(still, up), down = hn::AndNot(still, down);
+    }
+    hn::StoreU(hn::Sub(hn::Add(b, up), down), d, background + i);
   }
 }
 
@@ -55,8 +62,9 @@ void mask_of_difference(LumaView luma, LumaView background, int threshold, int s
   }
 }
 
-void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, int limit,
+void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, FollowLimits limits,
                        ImageView<uint8_t> background) {
+  if (limits.up_to == 0 && limits.down_to == 0) return;
   uint8_t tail[64];
   for (int y = 0; y < luma.height; ++y) {
     uint8_t* b = background.row(y);
@@ -64,7 +72,7 @@ void follow_background(LumaView luma, const BitMask& foreground, const BitMask* 
     const uint64_t* kept = keep != nullptr ? keep->row(y) : nullptr;
     for_segments(luma.row(y), luma.width, tail, [&](int x, const uint8_t* at) {
       const uint64_t still = fore[x >> 6] | (kept != nullptr ? kept[x >> 6] : 0);
-      follow_segment(at, b + x, still, limit);
+      follow_segment(at, b + x, still, limits);
     });
   }
 }

@@ -14,17 +14,24 @@ namespace nt {
 // Foreground where sign * (luma - background) > threshold; sign +1 bright, -1 dark, 0 either.
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground);
 
-// One sigma-delta step outside `foreground` and `keep` (null: nothing is kept), and only where luma and background differ
-// by at most `limit`.
-void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, int limit,
-                       ImageView<uint8_t> background);
+// Which differences move the background by one level in a frame: those in (above, up_to] upwards, those up to `down_to`
+// downwards. All 0: none.
+struct FollowLimits {
+  int above = 0, up_to = 0, down_to = 0;
+};
 
-// Up to which difference frame number `frame` may move the background; negative: not at all in this frame. Quick while the
-// plane settles, then every 8th frame for noise and slow light, every 64th for anything: a shadow that passes in a second
-// must not darken the plane, or its place stands out as a ghost afterwards.
-inline int follow_limit(uint32_t frame, int weak_threshold) {
-  if ((frame & 63) == 63) return 255;
-  return frame < 32 || (frame & 7) == 0 ? weak_threshold : -1;
+// Quick while the plane settles, then noise and slow light every 16th frame. A greater difference counts every 4th frame
+// upwards and hardly ever downwards: the fish's shadow must not darken the plane, and where it did, the ghost it leaves
+// when the fish moves on must go.
+inline FollowLimits follow_limits(uint32_t frame, int weak_threshold) {
+  if (frame < 32 || (frame & 15) == 0) return {0, weak_threshold, weak_threshold};
+  if ((frame & 127) == 127) return {0, 255, 255};
+  if ((frame & 3) == 2) return {weak_threshold, 255, 0};
+  return {};
 }
+
+// One sigma-delta step outside `foreground` and `keep` (null: nothing is kept).
+void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, FollowLimits limits,
+                       ImageView<uint8_t> background);
 
 }  // namespace nt

@@ -70,8 +70,8 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
   noise_.add(luma);
   const int radius = settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
   mask_of_difference(luma, estimate(), radius, 0, foreground);
-  if (const int limit = follow_limit(frames_++, weak_threshold(noise_.sigma())); limit >= 0)
-    follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
+  follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
+                    {plane_.data(), width_, height_, stride_});
   return means_something;
 }
 

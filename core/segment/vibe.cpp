@@ -141,8 +141,8 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
     });
     update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
   }
-  if (const int limit = follow_limit(frames_++, weak_threshold(noise_.sigma())); limit >= 0)
-    follow_background(luma, foreground, keep, limit, {plane_.data(), width_, height_, stride_});
+  follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
+                    {plane_.data(), width_, height_, stride_});
   return true;
 }
 

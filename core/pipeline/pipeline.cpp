@@ -147,14 +147,9 @@ void CaptureImpl::protect_fish(const FishMask* fish) {
   kept = fish != nullptr;
   if (!kept) return;
   for (int y = 0; y < fish->around.height; ++y) {
-    for (int i = 0; i < fish->around.words_per_row; ++i) {
-      const uint64_t word = fish->around.row(y)[i];
-      if (word == 0) continue;
-      const int x = fish->box.x0 + 64 * i, shift = x & 63;
-      uint64_t* row = keep.row(y + fish->box.y0);
-      row[x >> 6] |= word << shift;
-      if (shift != 0 && (x >> 6) + 1 < keep.words_per_row) row[(x >> 6) + 1] |= word >> (64 - shift);
-    }
+    const uint64_t* from = fish->around.row(y);
+    uint64_t* to = keep.row(y + fish->box.y0) + fish->box.x0 / 64;
+    for (int i = 0; i < fish->around.words_per_row; ++i) to[i] = from[i];
   }
 }
 

@@ -6,18 +6,31 @@
 namespace nt {
 namespace {
 
-uint64_t difference_word(const uint8_t* luma, const uint8_t* background, int threshold, int sign) {
+// Bit i: a[i] - b[i] > threshold.
+HWY_INLINE uint64_t excess_word(const uint8_t* a, const uint8_t* b, int threshold) {
   const ByteLanes d;
   const auto limit = hn::Set(d, static_cast<uint8_t>(threshold));
   uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
-    const auto v = hn::LoadU(d, luma + i);
-    const auto b = hn::LoadU(d, background + i);
-    const auto diff = sign > 0 ? hn::SaturatedSub(v, b) : (sign < 0 ? hn::SaturatedSub(b, v) : abs_diff(v, b));
-    // diff > limit, as unsigned bytes.
-    hn::StoreMaskBits(d, hn::Ne(hn::SaturatedSub(diff, limit), hn::Zero(d)), reinterpret_cast<uint8_t*>(&word) + i / 8);
+    const auto excess = hn::SaturatedSub(hn::SaturatedSub(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), limit);
+    hn::StoreMaskBits(d, hn::Eq(excess, hn::Zero(d)), reinterpret_cast<uint8_t*>(&word) + i / 8);
   }
-  return word;
+  return ~word;
+}
+
+// Calls f(word index, luma, background, valid bits) for the 64-pixel segments of a row. The background may be a part of a
+// larger plane, so of a partial segment no more than the row is read.
+template <class F>
+HWY_INLINE void for_both(const uint8_t* luma, const uint8_t* background, int width, F&& f) {
+  uint8_t tail[64], background_tail[64] = {};
+  for_segments(luma, width, tail, [&](int x, const uint8_t* at) {
+    const uint8_t* under = background + x;
+    if (at == tail) {
+      std::memcpy(background_tail, under, static_cast<std::size_t>(width - x));
+      under = background_tail;
+    }
+    f(x >> 6, at, under, valid_bits(x, width));
+  });
 }
 
 void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, FollowLimits limits) {
@@ -46,18 +59,22 @@ void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, F
 }  // namespace
 
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground) {
-  uint8_t tail[64], background_tail[64] = {};
   for (int y = 0; y < luma.height; ++y) {
-    const uint8_t* b = background.row(y);
     uint64_t* words = foreground.row(y);
-    for_segments(luma.row(y), luma.width, tail, [&](int x, const uint8_t* at) {
-      const uint64_t valid = valid_bits(x, luma.width);
-      const uint8_t* under = b + x;
-      if (at == tail) {  // the background may be a part of a larger plane: read no further than the row
-        std::memcpy(background_tail, under, static_cast<std::size_t>(luma.width - x));
-        under = background_tail;
-      }
-      words[x >> 6] = difference_word(at, under, threshold, sign) & valid;
+    for_both(luma.row(y), background.row(y), luma.width, [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
+      const uint64_t bright = sign >= 0 ? excess_word(v, b, threshold) : 0;
+      const uint64_t dark = sign <= 0 ? excess_word(b, v, threshold) : 0;
+      words[i] = (bright | dark) & valid;
+    });
+  }
+}
+
+void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright, const BitMask& dark) {
+  for (int y = 0; y < luma.height; ++y) {
+    uint64_t *bright_words = bright.row(y), *dark_words = dark.row(y);
+    for_both(luma.row(y), background.row(y), luma.width, [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
+      bright_words[i] = excess_word(v, b, threshold) & valid;
+      dark_words[i] = excess_word(b, v, threshold) & valid;
     });
   }
 }

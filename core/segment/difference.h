@@ -14,19 +14,22 @@ namespace nt {
 // Foreground where sign * (luma - background) > threshold; sign +1 bright, -1 dark, 0 either.
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground);
 
+// Both signs in one pass: bright where luma - background > threshold, dark where background - luma > threshold.
+void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright, const BitMask& dark);
+
 // Which differences move the background by one level in a frame: those in (above, up_to] upwards, those up to `down_to`
 // downwards. All 0: none.
 struct FollowLimits {
   int above = 0, up_to = 0, down_to = 0;
 };
 
-// Quick while the plane settles, then noise and slow light every 16th frame. A greater difference counts every 4th frame
+// Quick while the plane settles, then noise and slow light every 16th frame. A greater difference counts every 8th frame
 // upwards and hardly ever downwards: the fish's shadow must not darken the plane, and where it did, the ghost it leaves
 // when the fish moves on must go.
 inline FollowLimits follow_limits(uint32_t frame, int weak_threshold) {
   if (frame < 32 || (frame & 15) == 0) return {0, weak_threshold, weak_threshold};
   if ((frame & 127) == 127) return {0, 255, 255};
-  if ((frame & 3) == 2) return {weak_threshold, 255, 0};
+  if ((frame & 7) == 4) return {weak_threshold, 255, 0};
   return {};
 }
 

@@ -26,7 +26,7 @@ constexpr double kLargestShadow = 0.55;
 constexpr float kGlow = 0.12f;  // of the fish's own contrast; its fins have a quarter of it and more
 constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
-constexpr int kKeepMargin = 4;  // even: grow() then ends where it began
+constexpr int kKeepMargin = 2;  // even: grow() then ends where it began
 
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
@@ -194,7 +194,10 @@ FishMask Refine::fish(LumaView luma, LumaView background, float noise_sigma, con
   // to reach farther (the blob was but a part of it) the box grows and the step is done again.
   for (int attempt = 0; attempt < 3; ++attempt) {
     const int margin = max_int(16, max_int(result.box.width(), result.box.height()) / 3);
-    const Box box = grown(result.box, margin, luma.width, luma.height);
+    Box box = grown(result.box, margin, luma.width, luma.height);
+    // Whole mask words: rows without partial segments, and the same words as the frame's.
+    box.x0 = box.x0 / 64 * 64;
+    box.x1 = min_int((box.x1 + 63) / 64 * 64, luma.width);
     const bool whole_frame = box.width() == luma.width && box.height() == luma.height;
     result = fish_in(box, luma, background, noise_sigma, label, runs, remove_shadow);
     if (whole_frame || !reaches_border(result.mask)) break;
@@ -223,8 +226,7 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   // Above the noise, and above the glow and the lens blur around a fish of high contrast.
   const int contrast = median_difference(here, ground, seeds);
   const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
-  mask_of_difference(here, ground, weak, +1, bright);
-  mask_of_difference(here, ground, weak, -1, dark);
+  masks_of_difference(here, ground, weak, bright, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
   keep_connected(candidates, seeds, fish);
   combine(around, [&](int i) { return fish.words[i]; });

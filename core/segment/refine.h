@@ -19,7 +19,7 @@
 namespace nt {
 
 struct FishMask {
-  Box box;           // in the frame
+  Box box;           // in the frame; x0 is a multiple of 64, so its words are words of the frame's masks
   BitMask mask;      // box coordinates
   BitMask around;    // the fish and what hangs together with it (its shadow), grown: not to be learned as background
   bool shadow_removed = false;

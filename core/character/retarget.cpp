@@ -12,8 +12,7 @@ constexpr float kCrushedArea = 0.03f;
 
 // Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
 // over to the body.
-constexpr float kFlankShares[] = {0.25f, 0.55f};
-constexpr float kRayShares[] = {0.2f, 0.4f, 0.6f, 0.8f};
+constexpr float kRayShares[] = {0.3f, 0.45f, 0.6f, 0.8f};
 
 float distance(Vec2 a, Vec2 b) { return length(b - a); }
 
@@ -84,7 +83,6 @@ void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len
   rest_[control_count_++] = tip;
   const Vec2 root = lerp(top, bottom, 0.5f);
   for (const float share : kRayShares) rest_[control_count_++] = lerp(root, tip, share);
-  for (const float share : kFlankShares) rest_[control_count_++] = bottom - Vec2{0.0f, share * fin_len};
 }
 
 void Retarget::collect_rest() {

@@ -67,22 +67,25 @@ void for_pixels(const BitMask& mask, F&& f) {
   }
 }
 
-int difference(LumaView luma, LumaView background, int x, int y) {
-  const int d = luma.row(y)[x] - background.row(y)[x];
-  return d < 0 ? -d : d;
-}
-
-// Median of |luma - background| over a mask, from every fourth row.
-int median_difference(LumaView luma, LumaView background, const BitMask& mask) {
+// Histogram of |luma - background| over every `step`th row of a mask.
+std::array<int, 256> differences(LumaView luma, LumaView background, const BitMask& mask, int step) {
   std::array<int, 256> histogram{};
-  int total = 0;
-  for (int y = 0; y < mask.height; y += 4) {
+  for (int y = 0; y < mask.height; y += step) {
+    const uint8_t* v = luma.row(y);
+    const uint8_t* b = background.row(y);
     for (int i = 0; i < mask.words_per_row; ++i) {
-      for (uint64_t word = mask.row(y)[i]; word != 0; word &= word - 1, ++total)
-        ++histogram[static_cast<std::size_t>(difference(luma, background, 64 * i + std::countr_zero(word), y))];
+      for (uint64_t word = mask.row(y)[i]; word != 0; word &= word - 1) {
+        const int x = 64 * i + std::countr_zero(word), d = v[x] - b[x];
+        ++histogram[static_cast<std::size_t>(d < 0 ? -d : d)];
+      }
     }
   }
-  int median = 0;
+  return histogram;
+}
+
+int median_of(const std::array<int, 256>& histogram) {
+  int total = 0, median = 0;
+  for (int n : histogram) total += n;
   for (int below = histogram[0]; 2 * below < total; below += histogram[static_cast<std::size_t>(median)]) ++median;
   return median;
 }
@@ -147,9 +150,7 @@ bool Refine::keep_connected(const BitMask& candidates, const BitMask& seeds, con
 // farther from the background.
 bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish, const BitMask& seeds,
                          const BitMask& bright, const BitMask& dark, const BitMask& shadow) const {
-  std::array<int, 256> histogram{};
-  for_pixels(fish, [&](int x, int y) { ++histogram[static_cast<std::size_t>(difference(luma, background, x, y))]; });
-  const OtsuSplit split = otsu(histogram);
+  const OtsuSplit split = otsu(differences(luma, background, fish, 2));
   const BitMask far = shadow;  // first the class farther from the background, then what is left of the dark
   mask_of_difference(luma, background, split.threshold, 0, far);
   int bright_seeds = 0, dark_seeds = 0, found = 0, total = 0;
@@ -224,7 +225,7 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
 
   paint_seeds(runs, label, box, seeds);
   // Above the noise, and above the glow and the lens blur around a fish of high contrast.
-  const int contrast = median_difference(here, ground, seeds);
+  const int contrast = median_of(differences(here, ground, seeds, 4));
   const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
   masks_of_difference(here, ground, weak, bright, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });

@@ -12,7 +12,7 @@ constexpr float kCrushedArea = 0.03f;
 
 // Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
 // over to the body.
-constexpr float kRayShares[] = {0.3f, 0.45f, 0.6f, 0.8f};
+constexpr float kRayShares[] = {0.25f, 0.4f, 0.55f, 0.7f, 0.85f};
 
 float distance(Vec2 a, Vec2 b) { return length(b - a); }
 

@@ -80,7 +80,7 @@ class Retarget {
 
  private:
   // The control points that are used, one after the other: the body, then per fin the two junctions, the tip, the rays.
-  static constexpr std::size_t kFinRays = 4;
+  static constexpr std::size_t kFinRays = 5;
   static constexpr std::size_t kMaxControls = 9 + kMaxUpAxis + kMaxLowAxis + 2 * kFinRays;
   struct Fin {
     bool present = false;

@@ -8,6 +8,7 @@
 #include "core/outline/trace.h"
 #include "core/segment/blobs.h"
 #include "core/segment/clean.h"
+#include "core/segment/ghost.h"
 #include "core/segment/refine.h"
 #include "core/segment/target.h"
 
@@ -109,6 +110,11 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   if (blobs->runs_dropped()) report.flags |= kRunsDropped;
   if (blobs->blobs_dropped()) report.flags |= kBlobsDropped;
   report.blobs = static_cast<int>(blobs->blobs().size());
+  for (int i = 0; i < report.blobs; ++i) {
+    if (!is_ghost(frame.luma, background->estimate(), blobs->runs(), i)) continue;
+    blobs->mark_ghost(i);
+    background->absorb(frame.luma, blobs->runs(), i);
+  }
   clock.lap(Stage::components);
   return true;
 }

@@ -10,11 +10,13 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/base/arena.h"
 #include "core/base/image_view.h"
 #include "core/base/limits.h"
 #include "core/base/status.h"
+#include "core/segment/blobs.h"
 
 namespace nt {
 
@@ -38,6 +40,8 @@ class Background {
   // Mask of foreground. Pixels of `keep` (may be null) are never learned: the tracked fish of the last frame.
   // False when the model only learned from this frame and the mask (then empty) means nothing.
   virtual bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) = 0;
+  // Takes the pixels of one blob for background as they are now: they were a ghost.
+  virtual void absorb(LumaView luma, std::span<const Run> runs, int label) = 0;
   // What the picture would show without the fish, whole frame; valid after the first apply.
   virtual LumaView estimate() const = 0;
   // Standard deviation of the difference between luma and estimate() where there is no fish, grey levels.

@@ -146,4 +146,8 @@ bool Backlit::apply(LumaView luma, const BitMask* keep, const BitMask& foregroun
   return true;
 }
 
+void Backlit::absorb(LumaView luma, std::span<const Run> runs, int label) {
+  copy_runs(luma, runs, label, {plane_.data(), width_, height_, stride_});
+}
+
 }  // namespace nt

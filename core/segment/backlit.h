@@ -26,6 +26,7 @@ class Backlit final : public Background {
   void learn(LumaView) override {}
   void restart() override { started_ = false; }
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
+  void absorb(LumaView luma, std::span<const Run> runs, int label) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
   float noise_sigma() const override { return sigma_; }
   bool can_have_shadows() const override { return false; }

@@ -119,6 +119,7 @@ void Blobs::sum_up(const BitMask& mask, int min_area_px) {
     const double cxy = static_cast<double>(s.xy) / n - mx * my;
     const double half = det::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
     const double mean = 0.5 * (cxx + cyy);
+    blob = {};
     blob.box = s.box;
     blob.area_px = static_cast<int>(s.n);
     blob.centroid = {static_cast<float>(mx), static_cast<float>(my)};

@@ -28,6 +28,7 @@ struct Blob {
   float major_px = 0;  // standard deviations along the principal axes of its pixels
   float minor_px = 0;
   bool touches_edge = false;
+  bool ghost = false;  // nothing is there: the background remembers something that is gone
 };
 
 class Blobs {
@@ -36,6 +37,7 @@ class Blobs {
   // False when runs or blobs were dropped for want of room: runs_dropped() / blobs_dropped() say which.
   bool find(const BitMask& mask, int min_area_px);
   std::span<const Blob> blobs() const { return blobs_.first(static_cast<std::size_t>(blob_count_)); }
+  void mark_ghost(int label) { blobs_[static_cast<std::size_t>(label)].ghost = true; }
   std::span<const Run> runs() const { return runs_.first(static_cast<std::size_t>(run_count_)); }
   bool runs_dropped() const { return runs_dropped_; }
   bool blobs_dropped() const { return blobs_dropped_; }

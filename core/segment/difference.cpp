@@ -94,4 +94,11 @@ void follow_background(LumaView luma, const BitMask& foreground, const BitMask* 
   }
 }
 
+void copy_runs(LumaView luma, std::span<const Run> runs, int label, ImageView<uint8_t> plane) {
+  for (const Run& run : runs) {
+    if (run.label != label) continue;
+    std::memcpy(plane.row(run.y) + run.x0, luma.row(run.y) + run.x0, static_cast<std::size_t>(run.x1 - run.x0));
+  }
+}
+
 }  // namespace nt

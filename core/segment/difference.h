@@ -6,8 +6,10 @@
 // Cost: one pass, about 5 operations per 16 pixels each.
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "core/base/image_view.h"
+#include "core/segment/blobs.h"
 
 namespace nt {
 
@@ -36,5 +38,8 @@ inline FollowLimits follow_limits(uint32_t frame, int weak_threshold) {
 // One sigma-delta step outside `foreground` and `keep` (null: nothing is kept).
 void follow_background(LumaView luma, const BitMask& foreground, const BitMask* keep, FollowLimits limits,
                        ImageView<uint8_t> background);
+
+// Copies the luma of one blob's runs into a plane.
+void copy_runs(LumaView luma, std::span<const Run> runs, int label, ImageView<uint8_t> plane);
 
 }  // namespace nt

@@ -75,4 +75,8 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
   return means_something;
 }
 
+void Still::absorb(LumaView luma, std::span<const Run> runs, int label) {
+  copy_runs(luma, runs, label, {plane_.data(), width_, height_, stride_});
+}
+
 }  // namespace nt

@@ -22,6 +22,7 @@ class Still final : public Background {
   void learn(LumaView luma) override;
   void restart() override;
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
+  void absorb(LumaView luma, std::span<const Run> runs, int label) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
   float noise_sigma() const override { return noise_.sigma(); }
   bool can_have_shadows() const override { return true; }

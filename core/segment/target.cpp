@@ -16,6 +16,7 @@ bool inside(const Box& box, Vec2 p, float margin) {
 }  // namespace
 
 float fish_likeness(const Blob& blob) {
+  if (blob.ghost) return 0.0f;
   const float elongation = blob.major_px / det::max(blob.minor_px, 0.3f);
   // An ellipse of the same moments has area 4 pi sigma_1 sigma_2; a ring or a branching crack has much less.
   const float ellipse = 4.0f * det::kPi * blob.major_px * det::max(blob.minor_px, 0.3f);
@@ -80,7 +81,7 @@ int Target::match(std::span<const Blob> blobs) const {
   int best = -1, largest = 0;
   for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
-    if (inside(box_, blob.centroid - moved, 0.1f * length_ * patience) && blob.area_px > largest)
+    if (!blob.ghost && inside(box_, blob.centroid - moved, 0.1f * length_ * patience) && blob.area_px > largest)
       largest = blob.area_px, best = i;
   }
   if (static_cast<float>(largest) > 0.1f * area_) return best;
@@ -89,7 +90,7 @@ int Target::match(std::span<const Blob> blobs) const {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
     const float d = length(blob.centroid - predicted) / length_;
     const float ratio = static_cast<float>(blob.area_px) / det::max(area_, 1.0f);
-    if (d > 0.6f * patience || ratio < 0.15f) continue;
+    if (blob.ghost || d > 0.6f * patience || ratio < 0.15f) continue;
     const float cost = d / patience + 0.35f * det::abs(det::log(ratio));
     if (cost < best_cost) best_cost = cost, best = i;
   }

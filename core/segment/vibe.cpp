@@ -146,4 +146,9 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
   return true;
 }
 
+void Vibe::absorb(LumaView luma, std::span<const Run> runs, int label) {
+  copy_runs(luma, runs, label, {plane_.data(), width_, height_, stride_});
+  for (int k = 0; k < kSamples; ++k) copy_runs(luma, runs, label, {sample_row(k, 0), width_, height_, stride_});
+}
+
 }  // namespace nt

@@ -73,7 +73,7 @@ class Capture {
 
   StepReport step(const Frame& frame, NowNs now = nullptr);
 
-  // Selection: the blob nearest to a point from the next step on; the next larger-or-smaller blob; automatic.
+  // Selection: the blob nearest to a point from the next step on; the next blob in reading order; automatic.
   void select_at(Vec2 point);
   void select_next();
   void select_auto();

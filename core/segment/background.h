@@ -5,7 +5,7 @@
 // Models: `vibe` (Barnich and Van Droogenbroeck 2011, [F] section 4; patented in places until 2027-2028, see
 // docs/BACKGROUND.md), `still` (an empty-tank picture or the median of the first frames, then a sigma-delta update:
 // unpatented, same cost), `backlit` (a smooth surface fitted to a bright or dark even field, and a threshold).
-// Memory: vibe keeps 20 bytes a pixel, still 2 (20 while it learns), backlit 1.
+// Memory: vibe and still keep 21 bytes a pixel (still's 20 are for learning), backlit 1.
 // Cost: one pass over the rows; 0.1-0.5 ms at 960x544 and 128-bit lanes.
 #pragma once
 #include <cstddef>
@@ -24,7 +24,7 @@ enum class BackgroundKind : uint8_t { vibe, still, backlit };
 
 struct BackgroundSettings {
   BackgroundKind kind = BackgroundKind::vibe;
-  // 0: estimated from the noise of the first frames, between 8 and 40 (20 at ordinary noise, [F]'s and ViBe's value).
+  // 0: estimated from the noise of the first frames, between 10 and 48 (20 at ordinary noise, [F]'s and ViBe's value).
   int radius = 0;
 };
 

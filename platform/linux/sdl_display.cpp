@@ -2,6 +2,8 @@
 // A window by SDL2 (X11, Wayland or KMS, whichever there is) with an OpenGL ES 3.0 context.
 #include <SDL.h>
 
+#include <algorithm>
+
 #include "platform/camera.h"
 #include "platform/display.h"
 #include "platform/linux/gles_renderer.h"
@@ -33,6 +35,13 @@ class SdlWindow {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    // No larger than the screen, frame of the window included; the canvas keeps its aspect inside.
+    SDL_Rect screen{};
+    if (SDL_GetDisplayUsableBounds(0, &screen) == 0 && screen.w > 0 && screen.h > 0) {
+      const double fit = std::min({1.0, 0.95 * screen.w / width, 0.9 * screen.h / height});
+      width = std::max(static_cast<int>(width * fit), 1);
+      height = std::max(static_cast<int>(height * fit), 1);
+    }
     const Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, flags);
     if (window_ == nullptr) fail("it cannot be opened");

@@ -220,7 +220,7 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& path) {
     const std::string nothing = path + ": no picture matches this pattern; check the path";
     if (path.find('%') != std::string::npos) return open_pictures(numbered_pictures(path), nothing);
     if (path.find_first_of("*?[") != std::string::npos) return open_pictures(glob_pictures(path), nothing);
-    throw UserError(path + ": no such file; check the path");
+    throw UserError(path + ": no such file; check the path", 3);
   }
   if (access(path.c_str(), R_OK) != 0) throw UserError(path + ": permission denied; make it readable");
   if (fs::is_regular_file(path, error) && fs::file_size(path, error) == 0) {

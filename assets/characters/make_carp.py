@@ -75,23 +75,33 @@ def mirrored(points, side):
     return [(x, CY + side * (y - CY)) for x, y in points]
 
 
+# Pectoral fins: the middle of the root on the body's edge, half the root's length, how far the fin opens from straight back.
+FIN_X, FIN_ROOT, FIN_OPEN = 772.0, 15.0, 0.64
+# The fan along and across its own axis, from the root's front round the tip to the root's rear.
+FAN = [(30, 23), (70, 34), (115, 42), (160, 45), (198, 40), (219, 26), (226, 6), (219, -15), (198, -31), (165, -37), (130, -34),
+       (97, -25), (72, -16), (54, -9), (38, -4), (24, -6)]
+
+
 def pectoral(side):
     """A fan on rays; drawn for the lower side (side 1) and mirrored."""
-    # Rooted 2 px inside the body's edge; open at about 60 degrees from straight back.
-    front, back = (790, CY + 72), (716, CY + 78)
-    rim = spline([front, (779, CY + 112), (761, CY + 160), (736, CY + 207), (708, CY + 246), (680, CY + 272), (658, CY + 280),
-                  (636, CY + 272), (622, CY + 248), (619, CY + 216), (628, CY + 178), (648, CY + 142), (676, CY + 112),
-                  (700, CY + 92), back], closed=False)
-    inner = [(back[0] + 4, CY + 58), (front[0] - 4, CY + 56)]
+    def edge(x):
+        return CY + half_width((SNOUT - x) / (SNOUT - PEDUNCLE))
+
+    # Narrow at the root and well off the body behind it, so that it can fold and open without crumpling.
+    front, back = (FIN_X + FIN_ROOT, edge(FIN_X + FIN_ROOT) - 4), (FIN_X - FIN_ROOT, edge(FIN_X - FIN_ROOT) - 4)
+    c, s, y0 = math.cos(FIN_OPEN), math.sin(FIN_OPEN), edge(FIN_X)
+    fan = [(FIN_X - a * c + b * s, y0 + a * s + b * c) for a, b in FAN]
+    rim = spline([front] + fan + [back], closed=False)
+    inner = [(back[0] + 3, CY + 58), (front[0] - 3, CY + 56)]
     rays = []
-    tips = spline([(779, CY + 112), (761, CY + 160), (736, CY + 207), (708, CY + 246), (680, CY + 272), (658, CY + 280),
-                   (636, CY + 272), (622, CY + 248), (619, CY + 216), (628, CY + 178), (648, CY + 142), (676, CY + 112)],
-                  closed=False, steps=6)
-    for k in range(1, 14):
-        tip = tips[k * (len(tips) - 1) // 14]
-        u = k / 14
-        root = (front[0] + (back[0] - front[0]) * u, CY + 68)
-        mid = ((root[0] + tip[0]) / 2 + 12 * (1 - u), (root[1] + tip[1]) / 2 + 8 * (1 - u))
+    tips = spline(fan[1:-4], closed=False, steps=6)
+    count = 11
+    for k in range(1, count):
+        tip = tips[k * (len(tips) - 1) // count]
+        u = k / count
+        root = (front[0] + (back[0] - front[0]) * (0.1 + 0.6 * u), y0 - 8)
+        bow = 12 - 10 * u
+        mid = ((root[0] + tip[0]) / 2 + bow * s, (root[1] + tip[1]) / 2 + bow * c)
         rays.append(mirrored(bezier(root, mid, (root[0] + (tip[0] - root[0]) * 0.95, root[1] + (tip[1] - root[1]) * 0.95)), side))
     return mirrored(rim + inner, side), rays
 
@@ -214,8 +224,9 @@ def svg():
     for side in (-1, 1):
         fin, rays = pectoral(side)
         fill = "fin" if side > 0 else "finup"
-        out.append(f'<path d="{path(fin)}" fill="url(#{fill})" stroke="#8a3f22" stroke-width="3.2"/>')
-        out.append(f'<g stroke="#d9662f" stroke-opacity="0.5" stroke-width="2.2">{"".join(f"""<path d="{path(r, False)}"/>""" for r in rays)}</g>')
+        out.append(f'<clipPath id="in{fill}"><path d="{path(fin)}"/></clipPath>'
+                   f'<path d="{path(fin)}" fill="url(#{fill})" stroke="#8a3f22" stroke-width="3.2"/>')
+        out.append(f'<g clip-path="url(#in{fill})" stroke="#d9662f" stroke-opacity="0.5" stroke-width="2.2">{"".join(f"""<path d="{path(r, False)}"/>""" for r in rays)}</g>')
         out.append(f'<path d="{barbel(side)}" stroke="#8a3f22" stroke-width="9"/>'
                    f'<path d="{barbel(side)}" stroke="#f0a27c" stroke-width="5"/>')
     out.append(f'<path d="{b}" fill="url(#skin)"/><g clip-path="url(#body)">')

@@ -11,7 +11,7 @@ constexpr float kRangeStep = 0.05f;
 constexpr float kCrushedArea = 0.03f;
 
 // Where a fin's own control points lie between the middle of its root and its tip. None near the root: there the fin hands
-// over to the body.
+// over to the body. Closer together than the fin is wide, or the rim ripples between them when the fin folds.
 constexpr float kRayShares[] = {0.25f, 0.4f, 0.55f, 0.7f, 0.85f};
 
 float distance(Vec2 a, Vec2 b) { return length(b - a); }
@@ -82,6 +82,7 @@ void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len
   rest_[control_count_++] = bottom;
   rest_[control_count_++] = tip;
   const Vec2 root = lerp(top, bottom, 0.5f);
+  static_assert(sizeof kRayShares == kFinRays * sizeof(float));
   for (const float share : kRayShares) rest_[control_count_++] = lerp(root, tip, share);
 }
 

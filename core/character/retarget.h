@@ -14,7 +14,7 @@
 // hold the fin still. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it
 // turns as a fin and does not bend like a banana after its tip. The filter also runs over the centre and the direction,
 // which [F] leaves to its points in the world.
-// Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 33).
+// Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 37).
 #pragma once
 #include <span>
 
@@ -59,7 +59,7 @@ inline constexpr FinRange kFishFins{kFoldedRightFin + 1.5707963f, 1.5f};
 
 class Retarget {
  public:
-  // Everything that depends only on the rest pose is computed here, once (about 10 ms for 2,500 vertices, most of it the
+  // Everything that depends only on the rest pose is computed here, once (about 20 ms for 2,500 vertices, most of it the
   // search for the fins' ranges). The arena may be measuring: then the pointer is null.
   static Result<Retarget*> create(Arena& arena, const Character& character, const RetargetSettings& settings);
 

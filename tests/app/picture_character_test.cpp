@@ -10,8 +10,10 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "app/aligned_block.h"
 #include "app/author/character_file.h"
 #include "app/author/triangulate.h"
+#include "core/character/retarget.h"
 #include "platform/camera.h"
 #include "tests/support/temp_dir.h"
 
@@ -88,22 +90,22 @@ TEST_F(PictureCharacter, TheCarpsTrianglesAllHavePositiveAreaAndFillItsOutline) 
 }
 
 TEST_F(PictureCharacter, TheCarpsLandmarksAreWhereTheyWereDrawn) {
-  // Places of make_carp.py in its 1024x640 picture: snout (978, 320), notch of the tail (126, 320), fins about (655, 320 +- 280);
-  // the crop starts at the tail's tips (x 24) and the fins' (y 38), less the margin.
+  // Places of make_carp.py in its 1024x640 picture: snout (978, 320), notch of the tail (126, 320), fins about (620, 320 +- 240)
+  // on roots of 30 px about x 772; the crop starts at the tail's tips (x 24) and the fins' (y 82), less the margin.
   const FishPose& p = carp().report.pose;
-  const Vec2 origin{24 - 2 - 8, 38 - 2 - 8};
+  const Vec2 origin{24 - 2 - 8, 82 - 2 - 8};
   const auto expect_at = [&](Vec2 p_texture, Vec2 drawn, float tolerance) {
     EXPECT_NEAR(p_texture.x + origin.x, drawn.x, tolerance);
     EXPECT_NEAR(p_texture.y + origin.y, drawn.y, tolerance);
   };
   expect_at(p.head, {978, 320}, 15);
   expect_at(p.tail, {126, 320}, 15);
-  expect_at(p.l_fin, {655, 40}, 25);   // swims to the right: its left is up
-  expect_at(p.r_fin, {655, 600}, 25);
-  expect_at(p.jun_tl, {790, 238}, 20);
-  expect_at(p.jun_tr, {790, 402}, 20);
-  expect_at(p.jun_bl, {705, 235}, 25);
-  expect_at(p.jun_br, {705, 405}, 25);
+  expect_at(p.l_fin, {620, 80}, 25);   // swims to the right: its left is up
+  expect_at(p.r_fin, {620, 560}, 25);
+  expect_at(p.jun_tl, {787, 238}, 12);
+  expect_at(p.jun_tr, {787, 402}, 12);
+  expect_at(p.jun_bl, {757, 235}, 20);
+  expect_at(p.jun_br, {757, 405}, 20);
   for (int i = 0; i < p.l_num; ++i) EXPECT_NEAR(p.low_axis[i].y + origin.y, 320, 8);
   EXPECT_GT(p.dir.x, 0.99f);
 }
@@ -117,6 +119,59 @@ TEST_F(PictureCharacter, TheCarpsControlPointsAreInCharacterUnits) {
   EXPECT_LT(c.l_fin.x, -200);
   EXPECT_GT(c.r_fin.x, 200);
   EXPECT_GT(c.jun_tl.y, c.jun_bl.y);
+}
+
+// The carp on the stage, not smoothed, upright, its head up.
+class StagedCarp {
+ public:
+  StagedCarp() : loaded_(carp().bytes, "carp", Limits{}) {
+    RetargetSettings settings;
+    settings.smooth = false;
+    Arena measure;
+    (void)Retarget::create(measure, loaded_.character(), settings);
+    memory_ = AlignedBlock(measure.used());
+    Arena arena(memory_.bytes());
+    retarget_ = Retarget::create(arena, loaded_.character(), settings).value();
+    retarget_->start(retarget_->lengths().body_len);
+  }
+  Retarget* operator->() { return retarget_; }
+  // Triangles that a pose turns over; the scene's y is down, so the sense of all changes.
+  int inverted(const Motion& motion) {
+    retarget_->pose(motion, 0, {});
+    const Character& c = loaded_.character();
+    const auto twice = [&](std::span<const Vec2> v, std::size_t i) {
+      return cross(v[c.triangles[i + 1]] - v[c.triangles[i]], v[c.triangles[i + 2]] - v[c.triangles[i]]);
+    };
+    int count = 0;
+    for (std::size_t i = 0; i < c.triangles.size(); i += 3) {
+      if (twice(c.vertices, i) * twice(retarget_->vertices(), i) >= 0) ++count;
+    }
+    return count;
+  }
+
+ private:
+  LoadedCharacter loaded_;
+  AlignedBlock memory_;
+  Retarget* retarget_ = nullptr;
+};
+
+TEST_F(PictureCharacter, TheCarpsFinsFoldAndOpenAsFarAsAFishs) {
+  StagedCarp stage;
+  for (const FinRange r : {stage->left_fin_range(), stage->right_fin_range()}) {
+    EXPECT_LE(r.folded, 0.42f);
+    EXPECT_GE(r.open, 1.5f - 1e-4f);
+    EXPECT_GT(r.width(), 1.1f);  // of kFishFins' 1.2: amplitudes are kept
+  }
+}
+
+TEST_F(PictureCharacter, NoFinAngleTurnsATriangleOfTheCarpOver) {
+  StagedCarp stage;
+  Motion m = stage->rest_motion();
+  for (float angle = -4.0f; angle < 4.0f; angle += 0.1f) {
+    m.l_fin_angle = angle;
+    m.r_fin_angle = -2.0f * angle;
+    ASSERT_EQ(stage.inverted(m), 0) << angle;
+  }
 }
 
 TEST_F(PictureCharacter, TransparentPixelsBesideTheFigureHaveItsColour) {

@@ -81,7 +81,7 @@ TEST(Retarget, TheRestMotionGivesTheRestPose) {
     RetargetSettings settings = Stage::unsmoothed();
     settings.mls = kind;
     Stage stage(settings);
-    stage->pose(rest_motion(stage.character()), 0, {});
+    stage->pose(stage->rest_motion(), 0, {});
     for (std::size_t i = 0; i < stage.character().vertices.size(); ++i) {
       const Vec2 rest = stage.character().vertices[i], now = stage->vertices()[i];
       ASSERT_NEAR(now.x, rest.x, 0.15f);  // 1e-3 of the body
@@ -93,7 +93,7 @@ TEST(Retarget, TheRestMotionGivesTheRestPose) {
 TEST(Retarget, CentreDirectionScaleAndPlacement) {
   Stage stage;
   stage->start(300.0f);  // the fish is 300 px long, the character 150 units: Eq 15 halves the way
-  Motion m = rest_motion(stage.character());
+  Motion m = stage->rest_motion();
   m.centre = {200, 100};
   m.dir_rad = 0;  // to the right of the picture
   stage->pose(m, 0, {{10, 20}, 3.0f});
@@ -107,7 +107,7 @@ TEST(Retarget, CentreDirectionScaleAndPlacement) {
 
 TEST(Retarget, BonesKeepTheirLengthsAndTakeTheMotionsAngles) {
   Stage stage;
-  stage->pose(bent(rest_motion(stage.character()), [](float s) { return 0.8f * s; }), 0, {});
+  stage->pose(bent(stage->rest_motion(), [](float s) { return 0.8f * s; }), 0, {});
   const ControlPoints& c = stage->control_points();
   EXPECT_NEAR(length(c.tail - c.low_axis[14]), stage->lengths().tail_len, 1e-3f);
   EXPECT_NEAR(length(c.up_axis[0] - c.centre), stage->lengths().up_len[0], 1e-3f);
@@ -117,7 +117,7 @@ TEST(Retarget, BonesKeepTheirLengthsAndTakeTheMotionsAngles) {
 
 TEST(Retarget, NoTriangleTurnsOverInABodyWave) {
   Stage stage;
-  const Motion rest = rest_motion(stage.character());
+  const Motion rest = stage->rest_motion();
   for (float phase = 0; phase < det::kTwoPi; phase += 0.3f) {
     const auto wave = [&](float s) { return (0.1f + 0.5f * det::max(-s, 0.0f)) * det::sin(5 * s + phase); };
     stage->pose(bent(rest, wave), 0, {});
@@ -128,7 +128,7 @@ TEST(Retarget, NoTriangleTurnsOverInABodyWave) {
 TEST(Retarget, NoFinAngleTurnsATriangleOver) {
   Stage stage;
   for (float angle = -7.0f; angle < 7.0f; angle += 0.05f) {
-    Motion m = rest_motion(stage.character());
+    Motion m = stage->rest_motion();
     m.l_fin_angle = angle;
     m.r_fin_angle = -2.0f * angle;
     stage->pose(m, 0, {});
@@ -136,30 +136,65 @@ TEST(Retarget, NoFinAngleTurnsATriangleOver) {
   }
 }
 
-TEST(Retarget, AFoldedFinLiesFartherBackAndOnItsOwnSide) {
-  Stage stage;
-  Motion m = rest_motion(stage.character());
-  stage->pose(m, 0, {});
-  const ControlPoints rest = stage->control_points();
-  m.l_fin_angle = kFoldedLeftFin;
-  m.r_fin_angle = kFoldedRightFin;
-  stage->pose(m, 0, {});
-  const ControlPoints& folded = stage->control_points();
-  EXPECT_GT(folded.l_fin.y, rest.l_fin.y + 2);  // y down: back
-  EXPECT_GT(folded.r_fin.y, rest.r_fin.y + 2);
-  EXPECT_LT(folded.l_fin.x, folded.jun_tl.x);
-  EXPECT_GT(folded.r_fin.x, folded.jun_tr.x);
+// How far the right fin stands open in the last pose of an upright fish; scene: y down.
+float right_open(const Retarget& retarget) {
+  const Vec2 fin = retarget.control_points().r_fin - retarget.control_points().jun_tr;
+  return det::atan2(fin.x, fin.y);
+}
+float left_open(const Retarget& retarget) {
+  const Vec2 fin = retarget.control_points().l_fin - retarget.control_points().jun_tl;
+  return det::atan2(-fin.x, fin.y);
 }
 
-TEST(Retarget, AFinAngleMovesItsTipByLengthTimesAngle) {
+TEST(Retarget, AFoldedFishFinFoldsTheDrawnOneToItsLimitOnItsOwnSide) {
   Stage stage;
-  Motion m = rest_motion(stage.character());
+  Motion m = stage->rest_motion();
+  for (const float beyond : {0.0f, 0.25f, 1.0f}) {  // across the body's line too
+    m.l_fin_angle = kFoldedLeftFin + beyond;
+    m.r_fin_angle = kFoldedRightFin - beyond;
+    stage->pose(m, 0, {});
+    EXPECT_NEAR(left_open(*stage), stage->left_fin_range().folded, 1e-3f) << beyond;
+    EXPECT_NEAR(right_open(*stage), stage->right_fin_range().folded, 1e-3f) << beyond;
+  }
+  EXPECT_LT(stage->left_fin_range().folded, 0.7f);  // at rest 0.88: back by atan2(30, 36)
+}
+
+TEST(Retarget, AFishFinThatStandsOutOpensTheDrawnOneToItsLimit) {
+  Stage stage;
+  Motion m = stage->rest_motion();
+  for (const float open : {kFishFins.open, 2.0f, 3.0f}) {
+    m.l_fin_angle = -det::kHalfPi - open;
+    m.r_fin_angle = -det::kHalfPi + open;
+    stage->pose(m, 0, {});
+    EXPECT_NEAR(left_open(*stage), stage->left_fin_range().open, 1e-3f) << open;
+    EXPECT_NEAR(right_open(*stage), stage->right_fin_range().open, 1e-3f) << open;
+  }
+}
+
+TEST(Retarget, FinAmplitudesAreKeptInTheSameProportionAllOverTheRange) {
+  Stage stage;
+  const FinRange range = stage->right_fin_range();
+  const float slope = range.width() / kFishFins.width();
+  EXPECT_GT(slope, 0.6f);
+  EXPECT_LE(slope, 1.0f + 1e-5f);
+  Motion m = stage->rest_motion();
+  for (float open = kFishFins.folded; open < kFishFins.open; open += 0.1f) {
+    m.r_fin_angle = -det::kHalfPi + open;
+    stage->pose(m, 0, {});
+    EXPECT_NEAR(right_open(*stage), range.folded + slope * (open - kFishFins.folded), 1e-3f) << open;
+  }
+}
+
+TEST(Retarget, AFinAngleMovesItsTipAndNotTheOtherFins) {
+  Stage stage;
+  Motion m = stage->rest_motion();
   stage->pose(m, 0, {});
   const ControlPoints before = stage->control_points();
   m.r_fin_angle += 0.1f;
   stage->pose(m, 0, {});
   const ControlPoints& after = stage->control_points();
-  EXPECT_NEAR(length(after.r_fin - before.r_fin), stage->lengths().r_fin_len * 0.1f, 0.02f);
+  const float slope = stage->right_fin_range().width() / kFishFins.width();
+  EXPECT_NEAR(length(after.r_fin - before.r_fin), stage->lengths().r_fin_len * 0.1f * slope, 0.02f);
   EXPECT_LT(after.r_fin.y, before.r_fin.y);  // opens towards the head
   EXPECT_NEAR(length(after.l_fin - before.l_fin), 0.0f, 1e-3f);
 }
@@ -167,16 +202,16 @@ TEST(Retarget, AFinAngleMovesItsTipByLengthTimesAngle) {
 TEST(Retarget, FinRangesHoldTheRestPose) {
   Stage stage;
   for (const FinRange r : {stage->left_fin_range(), stage->right_fin_range()}) {
-    EXPECT_GT(r.folded, 0.0f);
-    EXPECT_LT(r.folded, 0.8f);  // at rest 0.88: back by atan2(30, 36)
+    EXPECT_GE(r.folded, kFishFins.folded);
+    EXPECT_LT(r.folded, 0.8f);
     EXPECT_GT(r.open, 1.0f);
-    EXPECT_LT(r.open, det::kPi);
+    EXPECT_LE(r.width(), kFishFins.width() + 1e-5f);
   }
 }
 
 TEST(Retarget, WithoutFinsTheBodyMoves) {
   Stage stage(Stage::unsmoothed(), false);
-  Motion m = rest_motion(stage.character());
+  Motion m = stage->rest_motion();
   EXPECT_EQ(m.confidence.l_fin, 0.0f);
   stage->pose(bent(m, [](float s) { return 0.4f * s; }), 0, {});
   EXPECT_EQ(stage.inverted(), 0);
@@ -184,7 +219,7 @@ TEST(Retarget, WithoutFinsTheBodyMoves) {
 
 TEST(Retarget, AMotionWithOtherSamplesIsResampled) {
   Stage fine(Stage::unsmoothed(), true, 3, 25), coarse(Stage::unsmoothed(), true, 3, 15);
-  const Motion m = bent(rest_motion(coarse.character()), [](float s) { return 0.7f * s; });
+  const Motion m = bent(coarse->rest_motion(), [](float s) { return 0.7f * s; });
   fine->pose(m, 0, {});
   coarse->pose(m, 0, {});
   EXPECT_NEAR(length(fine->control_points().tail - coarse->control_points().tail), 0, 0.5f);
@@ -194,7 +229,7 @@ TEST(Retarget, AMotionWithOtherSamplesIsResampled) {
 TEST(Retarget, TheFilterSmoothsAndStartsAgain) {
   RetargetSettings settings;
   Stage stage(settings);
-  Motion m = rest_motion(stage.character());
+  Motion m = stage->rest_motion();
   for (int i = 0; i < 30; ++i) stage->pose(m, 1.0f / 30, {});
   const Vec2 before = stage->control_points().tail;
   m.tail_angle += 0.4f;
@@ -210,7 +245,7 @@ TEST(Retarget, TheFilterSmoothsAndStartsAgain) {
 
 TEST(Retarget, DirectionAcrossPiDoesNotSpinTheFilteredFish) {
   Stage stage{RetargetSettings{}};
-  Motion m = rest_motion(stage.character());
+  Motion m = stage->rest_motion();
   for (int i = 0; i < 40; ++i) {
     m.dir_rad = i % 2 == 0 ? 3.1f : -3.1f;  // 0.083 apart
     stage->pose(m, 1.0f / 30, {});

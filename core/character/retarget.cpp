@@ -145,7 +145,8 @@ void Retarget::find_fin_range(int index) {
   const Fin& fin = fins_[index];
   const float least = det::max(kFishFins.folded, fin.rest_open - kFishFins.width());
   FinRange range{fin.rest_open, fin.rest_open};
-  for (float next = fin.rest_open; range.folded > least && fin_fits(fin, next); next = det::max(least, next - kRangeStep)) {
+  for (float next = fin.rest_open; range.folded > least && fin_fits(fin, next);
+       next = det::max(least, next - kRangeStep)) {
     range.folded = next;
   }
   const float most = range.folded + kFishFins.width();
@@ -175,7 +176,8 @@ Motion Retarget::rest_motion() const {
     if (!fins_[i].present) continue;
     const FinRange range = fin_range_[i];
     const float share = range.width() > 0.0f ? (fins_[i].rest_open - range.folded) / range.width() : 0.0f;
-    (i == 0 ? m.l_fin_angle : m.r_fin_angle) = angle_of_open(kFishFins.folded + share * kFishFins.width(), fish_side(i));
+    (i == 0 ? m.l_fin_angle : m.r_fin_angle) =
+        angle_of_open(kFishFins.folded + share * kFishFins.width(), fish_side(i));
     (i == 0 ? m.confidence.l_fin : m.confidence.r_fin) = 1.0f;
   }
   return m;

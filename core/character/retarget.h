@@ -39,7 +39,7 @@ struct RetargetSettings {
   // Weights 1 / |p - v|^(2 alpha). Of 1, 1.5 and 2 on the bundled carp over nine poses, 1.5 keeps the least triangle
   // largest (0.29 of its rest area in a bend of +-0.9 rad with folded fins; 1 turns ten over) and draws no kinks.
   float mls_alpha = 1.5f;
-  bool smooth = true;         // Kalman filter over the control points
+  bool smooth = true;  // Kalman filter over the control points
 };
 
 // Where the character goes: scene = offset + zoom * (Eq 15's position).
@@ -112,7 +112,7 @@ class Retarget {
   KalmanBank filter_;
   float last_dir_rad_ = 0;
   bool started_ = false;
-  float scale_ = 1;           // character units per frame pixel
+  float scale_ = 1;  // character units per frame pixel
   Fin fins_[2];
   FinRange fin_range_[2];
   std::size_t control_count_ = 0;

@@ -52,7 +52,8 @@ class PictureCharacter : public ::testing::Test {
 
 // A leaf with a fork, head to the left, without fins.
 cv::Mat leaf(int channels) {
-  cv::Mat image(300, 600, channels == 4 ? CV_8UC4 : CV_8UC3, channels == 4 ? cv::Scalar(0, 0, 0, 0) : cv::Scalar(250, 250, 250));
+  cv::Mat image(300, 600, channels == 4 ? CV_8UC4 : CV_8UC3,
+                channels == 4 ? cv::Scalar(0, 0, 0, 0) : cv::Scalar(250, 250, 250));
   const cv::Scalar ink = channels == 4 ? cv::Scalar(40, 90, 200, 255) : cv::Scalar(40, 90, 200);
   cv::ellipse(image, {260, 150}, {200, 60}, 0, 0, 360, ink, cv::FILLED);
   const std::vector<cv::Point> fork{{430, 150}, {560, 80}, {530, 150}, {560, 220}};
@@ -78,14 +79,15 @@ TEST_F(PictureCharacter, TheCarpsTrianglesAllHavePositiveAreaAndFillItsOutline) 
     const float twice = cross(b - a, d - a);
     ASSERT_GT(twice, 0.0f);
     area += 0.5 * static_cast<double>(twice);
-    used.insert(c.triangles.begin() + static_cast<std::ptrdiff_t>(i), c.triangles.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    used.insert(c.triangles.begin() + static_cast<std::ptrdiff_t>(i),
+                c.triangles.begin() + static_cast<std::ptrdiff_t>(i) + 3);
   }
   EXPECT_EQ(used.size(), c.vertices.size());
   const cv::Mat rgba(c.texture.height, c.texture.width, CV_8UC4, const_cast<uint8_t*>(c.texture.pixels));
   cv::Mat alpha;
   cv::extractChannel(rgba, alpha, 3);
   const double opaque = cv::countNonZero(alpha >= 128);
-  EXPECT_GT(area, opaque);          // the mesh covers the soft edge too
+  EXPECT_GT(area, opaque);  // the mesh covers the soft edge too
   EXPECT_LT(area, opaque * 1.06);
 }
 
@@ -100,7 +102,7 @@ TEST_F(PictureCharacter, TheCarpsLandmarksAreWhereTheyWereDrawn) {
   };
   expect_at(p.head, {978, 320}, 15);
   expect_at(p.tail, {126, 320}, 15);
-  expect_at(p.l_fin, {620, 80}, 25);   // swims to the right: its left is up
+  expect_at(p.l_fin, {620, 80}, 25);  // swims to the right: its left is up
   expect_at(p.r_fin, {620, 560}, 25);
   expect_at(p.jun_tl, {787, 238}, 12);
   expect_at(p.jun_tr, {787, 402}, 12);
@@ -185,9 +187,7 @@ TEST_F(PictureCharacter, TransparentPixelsBesideTheFigureHaveItsColour) {
   EXPECT_EQ(dark, 0);
 }
 
-TEST_F(PictureCharacter, TheSamePictureGivesTheSameBytes) {
-  EXPECT_EQ(carp().bytes, author_picture(kCarp, {}).bytes);
-}
+TEST_F(PictureCharacter, TheSamePictureGivesTheSameBytes) { EXPECT_EQ(carp().bytes, author_picture(kCarp, {}).bytes); }
 
 TEST_F(PictureCharacter, OptionsReachTheFile) {
   PictureOptions options;
@@ -275,8 +275,8 @@ TEST(Triangulate, KeepsEveryOutlineEdgeOfANarrowShape) {
     const int n = static_cast<int>(length(b - a));
     for (int i = 0; i < n; ++i) outline.push_back(lerp(a, b, static_cast<float>(i) / static_cast<float>(n)));
   };
-  const std::vector<Vec2> corners{{0, 0}, {200, 0}, {200, 97}, {500, 97}, {500, 0}, {700, 0}, {700, 200}, {500, 200},
-                                  {500, 103}, {200, 103}, {200, 200}, {0, 200}};
+  const std::vector<Vec2> corners{{0, 0},     {200, 0},   {200, 97},  {500, 97},  {500, 0},   {700, 0},
+                                  {700, 200}, {500, 200}, {500, 103}, {200, 103}, {200, 200}, {0, 200}};
   for (std::size_t i = 0; i < corners.size(); ++i) line(corners[i], corners[(i + 1) % corners.size()]);
   const Triangulation t = triangulate(outline, 400);
   std::set<std::pair<uint32_t, uint32_t>> edges;

@@ -22,7 +22,8 @@ class Stage {
     Arena measure;
     EXPECT_EQ(Retarget::create(measure, character_, settings).value(), nullptr);
     memory_.resize(measure.used() + kAlignment);
-    Arena arena({reinterpret_cast<std::byte*>(align_up(reinterpret_cast<std::size_t>(memory_.data()))), measure.used()});
+    Arena arena(
+        {reinterpret_cast<std::byte*>(align_up(reinterpret_cast<std::size_t>(memory_.data()))), measure.used()});
     auto made = Retarget::create(arena, character_, settings);
     EXPECT_TRUE(made.ok()) << made.status().message;
     retarget_ = made.value();
@@ -59,9 +60,11 @@ class Stage {
 // Bends the body: `turn(s)` is added to the bone at share s of the way to the head (1) or tail (-1).
 template <class F>
 Motion bent(Motion m, F turn) {
-  for (int i = 0; i < m.u_num; ++i) m.up_axis_angle[i] += turn((static_cast<float>(i) + 0.5f) / static_cast<float>(m.u_num + 1));
+  for (int i = 0; i < m.u_num; ++i)
+    m.up_axis_angle[i] += turn((static_cast<float>(i) + 0.5f) / static_cast<float>(m.u_num + 1));
   m.head_angle += turn(1.0f);
-  for (int i = 0; i < m.l_num; ++i) m.low_axis_angle[i] += turn(-(static_cast<float>(i) + 0.5f) / static_cast<float>(m.l_num + 1));
+  for (int i = 0; i < m.l_num; ++i)
+    m.low_axis_angle[i] += turn(-(static_cast<float>(i) + 0.5f) / static_cast<float>(m.l_num + 1));
   m.tail_angle += turn(-1.0f);
   return m;
 }

@@ -14,6 +14,7 @@ namespace {
 
 // Shape and travel of consecutive frames are nearly the same observation, so each later frame adds only a part.
 constexpr float kRepeatedEvidence = 0.2f;
+constexpr int kArcReach = 4;  // points: a ragged rim is not longer than a smooth one
 constexpr int kRounds = 2;  // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kTrim = 0.05f;
@@ -101,7 +102,7 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   area = det::abs(moments.area);
   for (std::size_t i = 0; i < n; ++i) contour[i] = points[clockwise ? i : n - 1 - i];
   const std::span<const Vec2> c = contour.first(n);
-  arc_lengths(c, arc.first(n + 1));
+  arc_lengths(c, arc.first(n + 1), kArcReach);
   const std::span<const float> arcs = arc.first(n + 1);
   const float perimeter = arcs[n];
 

@@ -5,10 +5,15 @@
 
 namespace nt {
 
-void arc_lengths(std::span<const Vec2> contour, std::span<float> arc) {
-  const std::size_t n = contour.size();
+void arc_lengths(std::span<const Vec2> contour, std::span<float> arc, int reach) {
+  const int n = static_cast<int>(contour.size());
+  const float share = 1.0f / static_cast<float>(2 * reach + 1);
   arc[0] = 0;
-  for (std::size_t i = 0; i < n; ++i) arc[i + 1] = arc[i] + length(contour[(i + 1) % n] - contour[i]);
+  for (int i = 0; i < n; ++i) {
+    const Vec2 before = contour[static_cast<std::size_t>((i - reach % n + n) % n)];
+    const Vec2 after = contour[static_cast<std::size_t>((i + 1 + reach) % n)];
+    arc[static_cast<std::size_t>(i) + 1] = arc[static_cast<std::size_t>(i)] + share * length(after - before);
+  }
 }
 
 EllipticFourier fit_fourier(std::span<const Vec2> contour, std::span<const float> arc, int harmonics) {

@@ -23,7 +23,9 @@ struct EllipticFourier {
 };
 
 // `arc` has one more element than `contour`: arc[i] = length from point 0 to point i, arc[n] = the perimeter T.
-void arc_lengths(std::span<const Vec2> contour, std::span<float> arc);
+// With `reach` > 0 each step counts as its share of the chord from `reach` points before to `reach` points after it, so that
+// a ragged stretch of outline is not longer than a smooth one.
+void arc_lengths(std::span<const Vec2> contour, std::span<float> arc, int reach = 0);
 EllipticFourier fit_fourier(std::span<const Vec2> contour, std::span<const float> arc, int harmonics);
 
 }  // namespace nt

@@ -17,15 +17,15 @@ bool all_zero(const uint64_t* words, int n) {
 
 // A missing row above or below is replaced by the row itself, which changes neither an AND nor an OR with it.
 template <bool kErode>
-void morph3(const BitMask& from, const BitMask& to) {
+void morph(const BitMask& from, const BitMask& to, int step) {
   const int n = from.words_per_row;
   const uint64_t last = last_word_bits(from.width);
   const uint64_t outside = kErode ? ~uint64_t{0} : 0;
   const auto join = [](uint64_t a, uint64_t b) { return kErode ? a & b : a | b; };
   for (int y = 0; y < from.height; ++y) {
     const uint64_t* here = from.row(y);
-    const uint64_t* above = y > 0 ? from.row(y - 1) : here;
-    const uint64_t* below = y + 1 < from.height ? from.row(y + 1) : here;
+    const uint64_t* above = y >= step ? from.row(y - step) : here;
+    const uint64_t* below = y + step < from.height ? from.row(y + step) : here;
     uint64_t* out = to.row(y);
     if (all_zero(here, n) && (kErode || (all_zero(above, n) && all_zero(below, n)))) {
       std::memset(out, 0, static_cast<std::size_t>(n) * 8);
@@ -38,7 +38,7 @@ void morph3(const BitMask& from, const BitMask& to) {
     uint64_t before = outside, now = column(0);
     for (int i = 0; i < n; ++i) {
       const uint64_t after = i + 1 < n ? column(i + 1) : outside;
-      out[i] = join(join((now << 1) | (before >> 63), now), (now >> 1) | (after << 63));
+      out[i] = join(join((now << step) | (before >> (64 - step)), now), (now >> step) | (after << (64 - step)));
       before = now, now = after;
     }
     out[n - 1] &= last;
@@ -47,8 +47,9 @@ void morph3(const BitMask& from, const BitMask& to) {
 
 }  // namespace
 
-void erode3(const BitMask& from, const BitMask& to) { morph3<true>(from, to); }
-void dilate3(const BitMask& from, const BitMask& to) { morph3<false>(from, to); }
+void erode3(const BitMask& from, const BitMask& to) { morph<true>(from, to, 1); }
+void dilate3(const BitMask& from, const BitMask& to) { morph<false>(from, to, 1); }
+void spread(const BitMask& from, const BitMask& to, int step) { morph<false>(from, to, step); }
 
 void open_mask(const BitMask& from, const BitMask& scratch, const BitMask& to, int size) {
   const int r = (size - 1) / 2;

@@ -12,6 +12,9 @@ namespace nt {
 // One step of a 3 x 3 erosion / dilation; `to` must not overlap `from`.
 void erode3(const BitMask& from, const BitMask& to);
 void dilate3(const BitMask& from, const BitMask& to);
+// Each pixel spreads to the nine places 0 or +-step (1..63) away in x and y: steps 1, 2, 4 one after the other make a
+// dilation by a square of side 15.
+void spread(const BitMask& from, const BitMask& to, int step);
 
 // Opening of `from` into `to` by a square of side `size` (odd; 1 copies); all three have one size, none overlap.
 void open_mask(const BitMask& from, const BitMask& scratch, const BitMask& to, int size);

@@ -26,8 +26,6 @@ constexpr double kLargestShadow = 0.55;
 constexpr float kGlow = 0.12f;  // of the fish's own contrast; its fins have a quarter of it and more
 constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
-constexpr int kKeepMargin = 2;  // even: grow() then ends where it began
-
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
 }
@@ -168,15 +166,13 @@ bool Refine::find_shadow(LumaView luma, LumaView background, const BitMask& fish
   return found < kLargestShadow * total && split.eta > kSeparate && texture_kept(luma, background, shadow);
 }
 
-// Grows what must not be learned by kKeepMargin: the fish's half-transparent rim.
+// Grows what must not be learned by 8 pixels. Not only the fish's rim is half-transparent: where its tail rests on ground
+// of the same tone it is in no mask, and a plane that learned it there would show a ghost when it beats again.
 void Refine::grow(const BitMask& mask, const BitMask& scratch) const {
-  const BitMask* from = &mask;
-  const BitMask* to = &scratch;
-  for (int i = 0; i < kKeepMargin; ++i) {
-    dilate3(*from, *to);
-    const BitMask* other = from;
-    from = to, to = other;
-  }
+  spread(mask, scratch, 1);
+  spread(scratch, mask, 2);
+  spread(mask, scratch, 4);
+  spread(scratch, mask, 1);
 }
 
 bool Refine::reaches_border(const BitMask& mask) const {

@@ -58,7 +58,7 @@ class Arena {
       used_ = end;
       return nullptr;
     }
-    if (end > size_) {
+    if (full_ || end > size_) {
       full_ = true;
       return nullptr;
     }

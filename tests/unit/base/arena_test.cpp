@@ -44,6 +44,14 @@ TEST(Arena, StartsEverySpanOnALineAndZeroesIt) {
   for (uint32_t w : words) EXPECT_EQ(w, 0u);
 }
 
+TEST(Arena, OnceFullEvenASmallRequestIsRefused) {
+  nt::test::Block block(1024);
+  nt::Arena arena(block.span());
+  EXPECT_TRUE(arena.take<uint8_t>(5000).empty());
+  EXPECT_TRUE(arena.take_raw<uint8_t>(1).empty()) << "else a stage would have some of its spans and not the others";
+  EXPECT_TRUE(arena.full());
+}
+
 TEST(Arena, RewindKeepsTheHighWaterMark) {
   nt::test::Block block(1024);
   nt::Arena arena(block.span());

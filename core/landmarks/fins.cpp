@@ -19,6 +19,7 @@ struct SideWalk {
 // Depth of `p` below the line from q to r, positive on the side of the fish's axis.
 float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
 
+constexpr float kHeadRound = 0.08f;          // of the length: before it every head gets narrower
 constexpr float kBreadth = 0.02f;            // of the length, half-way up
 constexpr float kTipRound = 0.06f;            // of the length: as near to the tip the outline turns round it
 
@@ -88,7 +89,11 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
   while (k_down < walk.count && place(k_down).d > 0.5f * (flank + farthest)) ++k_down;
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const float breadth = length(point(k_up) - point(k_down)) / axis_length;
-  fin.seen = stands_out > kStandsOut && breadth > kBreadth && top < k_tip && bottom > k_tip;
+  // Ahead of a fin there is flank again; a broad head (a larva's) only gets broader.
+  float flank_ahead = farthest;
+  for (int k = k_tip; k > 0 && place(k).s > kHeadRound; --k) flank_ahead = det::min(flank_ahead, place(k).d);
+  const bool apart = flank_ahead < 0.5f * (flank + farthest);
+  fin.seen = stands_out > kStandsOut && breadth > kBreadth && apart && top < k_tip && bottom > k_tip;
   if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
   return fin;
 }

@@ -4,6 +4,10 @@ add_compile_options(-Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -ff
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   # The x86-64 baseline would make Highway scalar.
   add_compile_options(-march=${NEONTETRA_X86_LEVEL})
+  if(NEONTETRA_X86_LEVEL STREQUAL "x86-64-v3")
+    # Highway's AVX2 target wants these too; every processor of that level has them.
+    add_compile_options(-maes -mpclmul)
+  endif()
 endif()
 if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   # Highway 1.0.3 marks its NEON operations +crypto, and they are inlined only into code of the same target. Core calls

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/pipeline/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/support/picture.h"
+
+namespace nt {
+namespace {
+
+using test::Picture;
+
+constexpr int kWidth = 322, kHeight = 180;
+
+class Filmed {
+ public:
+  explicit Filmed(const CaptureSettings& settings = {}, int width = kWidth, int height = kHeight)
+      : block_(Capture::bytes_needed(limits(width, height), settings)) {
+    auto made = Capture::create(block_.span(), limits(width, height), settings, width, height);
+    EXPECT_TRUE(made.ok()) << made.status().message;
+    capture_ = made.value();
+  }
+  StepReport see(const Picture& picture) {
+    Frame frame;
+    frame.luma = picture.luma(), frame.sequence = ++count_,
+    frame.timestamp_ns = static_cast<int64_t>(count_) * 33'000'000;
+    return capture_->step(frame);
+  }
+  void learn(const Picture& picture) { capture_->learn({.luma = picture.luma()}); }
+  Capture* operator->() { return capture_; }
+  static Limits limits(int width, int height) {
+    Limits limits;
+    limits.max_width = width, limits.max_height = height;
+    return limits;
+  }
+
+ private:
+  test::Block block_;
+  Capture* capture_ = nullptr;
+  uint64_t count_ = 0;
+};
+
+Picture empty() { return Picture(kWidth, kHeight, 170); }
+// A fish that looks to the right.
+Picture& draw_fish(Picture& picture, float x, float y) {
+  return picture.ellipse(x + 8, y, 24, 10, 60).ellipse(x - 22, y, 24, 4, 60);
+}
+Picture fish_at(float x, float y) {
+  Picture p = empty();
+  return draw_fish(p, x, y);
+}
+
+CaptureSettings still() {
+  CaptureSettings settings;
+  settings.background.kind = BackgroundKind::still;
+  return settings;
+}
+
+TEST(Pipeline, FollowsAFishAndSaysWhereItsHeadIs) {
+  Filmed film(still());
+  film.learn(empty());
+  EXPECT_STREQ(film->background_name(), "still");
+  EXPECT_EQ(film->init_len(), 0);
+  for (int n = 0; n < 40; ++n) {
+    const float x = 80 + 4.0f * static_cast<float>(n);
+    const StepReport report = film.see(fish_at(x, 90));
+    ASSERT_EQ(report.status, PoseStatus::ok) << n;
+    EXPECT_EQ(report.blobs, 1);
+    EXPECT_NEAR(film->pose().head.x, x + 32, 3);
+    EXPECT_NEAR(film->pose().tail.x, x - 46, 3);
+    EXPECT_NEAR(film->pose().head.y, 90, 2);
+    EXPECT_GT(film->pose().dir.x, 0.99f);
+  }
+  EXPECT_NEAR(film->init_len(), 78, 4);
+  EXPECT_FALSE(film->contour().empty());
+  EXPECT_FALSE(film->smooth_contour().empty());
+  EXPECT_GE(film->contour_points_high_water(), static_cast<int>(film->contour().size()));
+}
+
+TEST(Pipeline, APictureWithoutAFishIsAbsent) {
+  for (const BackgroundKind kind : {BackgroundKind::vibe, BackgroundKind::still, BackgroundKind::backlit}) {
+    CaptureSettings settings;
+    settings.background.kind = kind;
+    Filmed film(settings);
+    Random random(2);
+    for (int n = 0; n < 100; ++n) {
+      const StepReport report = film.see(empty().noise(random, 2));
+      ASSERT_NE(report.status, PoseStatus::ok) << n;
+      if (n > 0) {
+        EXPECT_EQ(report.status, PoseStatus::absent);
+      }
+      EXPECT_FALSE(film->pose().ok());
+      EXPECT_TRUE(film->contour().empty());
+      EXPECT_TRUE(film->smooth_contour().empty());
+    }
+    EXPECT_EQ(film->init_len(), 0);
+  }
+}
+
+TEST(Pipeline, WithoutAPictureToLearnFromTheFirstFrameIsOne) {
+  Filmed film(still());
+  EXPECT_EQ(film.see(empty()).status, PoseStatus::relearn);
+  EXPECT_EQ(film.see(fish_at(100, 90)).status, PoseStatus::ok);
+  film->relearn();
+  EXPECT_EQ(film.see(empty()).status, PoseStatus::relearn);
+}
+
+TEST(Pipeline, AFishAtTheEdgeIsPartialAndOneThatLeftIsLostThenAbsent) {
+  CaptureSettings settings = still();
+  settings.lost_after = 5;
+  Filmed film(settings);
+  film.learn(empty());
+  float x = 200;
+  for (; x < 280; x += 5) EXPECT_EQ(film.see(fish_at(x, 90)).status, PoseStatus::ok) << x;
+  for (x = 300; x < 340; x += 5) {
+    EXPECT_EQ(film.see(fish_at(x, 90)).status, PoseStatus::partial) << x;
+    EXPECT_FALSE(film->pose().ok());
+    EXPECT_EQ(film->pose().confidence.head, 0);
+  }
+  for (int n = 0; n < 6; ++n) EXPECT_EQ(film.see(empty()).status, PoseStatus::lost) << n;
+  EXPECT_EQ(film.see(empty()).status, PoseStatus::absent);
+}
+
+TEST(Pipeline, ALampThatStaysOnMakesItLearnAnew) {
+  for (const BackgroundKind kind : {BackgroundKind::vibe, BackgroundKind::still}) {
+    CaptureSettings settings;
+    settings.background.kind = kind;
+    Filmed film(settings);
+    for (int n = 0; n < 5; ++n) EXPECT_EQ(film.see(empty()).flags & kRelearned, 0u);
+    Picture lit(kWidth, kHeight, 240);
+    bool relearned = false;
+    int frames = 0;
+    for (; frames < 30 && !relearned; ++frames) relearned = (film.see(lit).flags & kRelearned) != 0;
+    EXPECT_TRUE(relearned);
+    EXPECT_GT(frames, 3) << "a flash is no lamp";
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(film.see(lit).flags & kRelearned, 0u);
+    EXPECT_EQ(film.see(draw_fish(lit, 150, 90)).status, PoseStatus::ok);
+  }
+}
+
+TEST(Pipeline, AClickSelectsAndNextMovesOn) {
+  Filmed film(still());
+  film.learn(empty());
+  Picture two = fish_at(90, 60);
+  draw_fish(two, 230, 130);
+  film->select_at({230, 130});
+  EXPECT_EQ(film.see(two).status, PoseStatus::ok);
+  EXPECT_NEAR(film->pose().centre.y, 130, 3);
+  ASSERT_EQ(film->blobs().size(), 2u);
+  for (const BlobView& b : film->blobs()) EXPECT_EQ(b.selected, b.centroid.y > 100);
+  film->select_next();
+  (void)film.see(two);
+  EXPECT_NEAR(film->pose().centre.y, 60, 3);
+}
+
+TEST(Pipeline, AFrameOfAnotherSizeIsSaidAndTheNextGoesOn) {
+  Filmed film(still());
+  film.learn(empty());
+  ASSERT_EQ(film.see(fish_at(100, 90)).status, PoseStatus::ok);
+  for (const auto& [w, h] : {std::pair{kWidth - 1, kHeight}, std::pair{kWidth, kHeight + 1}, std::pair{1, 1}}) {
+    const StepReport report = film.see(Picture(w, h, 170));
+    EXPECT_NE(report.flags & kFrameTooLarge, 0u);
+    EXPECT_FALSE(film->pose().ok());
+    EXPECT_TRUE(film->blobs().empty());
+  }
+  EXPECT_EQ(film.see(fish_at(104, 90)).status, PoseStatus::ok);
+}
+
+TEST(Pipeline, TheSmallestFrameWorksAndSmallerOnesAreRefused) {
+  for (const BackgroundKind kind : {BackgroundKind::vibe, BackgroundKind::still, BackgroundKind::backlit}) {
+    CaptureSettings settings;
+    settings.background.kind = kind;
+    Filmed film(settings, 16, 16);
+    Random random(5);
+    for (int n = 0; n < 50; ++n) {
+      Picture seen(16, 16);
+      (void)film.see(seen.scatter(random));
+      (void)film.see(Picture(16, 16, 100).paint({2 + n % 5, 6, 11 + n % 5, 9}, 200));
+    }
+    const Limits limits = Filmed::limits(16, 16);
+    const test::Block block(Capture::bytes_needed(limits, settings));
+    EXPECT_EQ(Capture::create(block.span(), limits, settings, 15, 16).status().code, StatusCode::bad_argument);
+    EXPECT_EQ(Capture::create(block.span(), limits, settings, 16, 15).status().code, StatusCode::bad_argument);
+  }
+}
+
+TEST(Pipeline, BadSettingsAreRefused) {
+  for (const int size : {0, 2, -3}) {
+    CaptureSettings settings;
+    settings.open_size = size;
+    const Limits limits = Filmed::limits(64, 64);
+    const test::Block block(Capture::bytes_needed(limits, settings));
+    const auto made = Capture::create(block.span(), limits, settings, 64, 64);
+    EXPECT_EQ(made.status().code, StatusCode::bad_argument);
+    EXPECT_NE(std::strstr(made.status().message, "open_size"), nullptr);
+  }
+}
+
+TEST(Pipeline, MemoryIsExactForEveryModel) {
+  for (const BackgroundKind kind : {BackgroundKind::vibe, BackgroundKind::still, BackgroundKind::backlit}) {
+    CaptureSettings settings;
+    settings.background.kind = kind;
+    const Limits limits = Filmed::limits(101, 67);
+    const std::size_t bytes = Capture::bytes_needed(limits, settings);
+    const test::Block block(bytes);
+    const auto made = Capture::create(block.span(), limits, settings, 101, 67);
+    ASSERT_TRUE(made.ok());
+    EXPECT_EQ(made.value()->bytes_used(), bytes);
+    EXPECT_EQ(Capture::create(block.span().first(bytes - 1), limits, settings, 101, 67).status().code,
+              StatusCode::out_of_memory);
+  }
+}
+
+TEST(Pipeline, TheFingerprintFollowsTheIntegerStagesOnly) {
+  CaptureSettings settings = still();
+  settings.fingerprint = true;
+  Filmed a(settings), b(settings);
+  a.learn(empty()), b.learn(empty());
+  (void)a.see(fish_at(100, 90)), (void)b.see(fish_at(100, 90));
+  EXPECT_EQ(a->integer_hash(), b->integer_hash());
+  (void)b.see(fish_at(101, 90));
+  EXPECT_NE(a->integer_hash(), b->integer_hash());
+}
+
+}  // namespace
+}  // namespace nt

@@ -7,7 +7,7 @@
 #include "platform/sim/tank_raster.h"
 #include "platform/sim/tank_render.h"
 #include "platform/sim/tank_scenes.h"
-#include "platform/sim/tank_swim.h"
+#include "platform/sim/tank_school.h"
 
 namespace nt {
 namespace {
@@ -28,20 +28,21 @@ struct Tank::Impl {
   explicit Impl(const TankSettings& s)
       : settings(s),
         scene(checked_scene(s)),
-        swimmer(scene, s.seed, s.width, s.height),
-        model(scene.body_length * static_cast<float>(s.width), scene.caudal),
+        school(scene, s.seed, s.width, s.height),
+        hand(scene, s.seed, s.width, s.height),
         renderer(scene, s.seed, s.width, s.height) {}
 
   TankSettings settings;
   const TankScene& scene;
-  tank::Swimmer swimmer;
-  tank::FishModel model;
-  mutable tank::Renderer renderer;  // its colour picture is made when it is asked for
-  tank::FishShape shape;
+  tank::School school;
+  tank::Hand hand;
+  mutable tank::Renderer renderer;    // its colour picture is made when it is asked for
+  std::vector<tank::FishShape> fish;  // as the camera sees them, the target first
   tank::Coverage cover;
   TankTruth truth;
   int64_t frame = -1;
 
+  const tank::FishShape& target() const { return fish.front(); }
   void fill_mask();
 };
 
@@ -49,9 +50,9 @@ struct Tank::Impl {
 void Tank::Impl::fill_mask() {
   const int width = settings.width, height = settings.height;
   truth.mask.assign(static_cast<std::size_t>(width) * height, 0);
-  const Box box = tank::box_of(shape.contour, 1);
+  const Box box = tank::box_of(target().contour, 1);
   cover.start(box);
-  cover.add(shape.contour);
+  cover.add(target().contour);
   cover.finish();
   for (int y = max_int(box.y0, 0); y < min_int(box.y1, height); ++y)
     for (int x = max_int(box.x0, 0); x < min_int(box.x1, width); ++x)
@@ -63,9 +64,13 @@ Tank::~Tank() = default;
 
 LumaView Tank::render_next() {
   Impl& t = *impl_;
-  if (++t.frame > 0) t.swimmer.advance(1.0 / t.settings.fps);
-  t.model.shape(t.swimmer.posture(), t.shape);
-  return t.renderer.render(t.shape);
+  if (++t.frame > 0) t.school.advance(1.0 / t.settings.fps);
+  const double t_s = static_cast<double>(t.frame) / t.settings.fps;
+  const tank::Similarity frame_from_tank = t.hand.frame_from_tank(t_s);
+  t.school.shape(t.fish);
+  if (!t.hand.still())
+    for (tank::FishShape& shape : t.fish) tank::move_shape(frame_from_tank, shape);
+  return t.renderer.render(t.fish, t_s, frame_from_tank);
 }
 
 std::span<const uint8_t> Tank::rgb() const { return impl_->renderer.rgb(); }
@@ -76,11 +81,18 @@ const TankTruth& Tank::truth(bool with_mask) {
   t.truth.contour.clear();
   t.truth.mask.clear();
   if (t.frame < 0) return t.truth;
-  tank::fill_pose(t.shape, t.settings.width, t.settings.height, t.truth.pose);
+  tank::fill_pose(t.target(), t.settings.width, t.settings.height, t.truth.pose);
   t.truth.visible = t.truth.pose.ok();
-  t.truth.midline.assign(t.shape.midline().begin(), t.shape.midline().end());
+  t.truth.covered = false;
+  t.truth.others.resize(t.fish.size() - 1);
+  for (std::size_t i = 1; i < t.fish.size(); ++i) {
+    tank::fill_pose(t.fish[i], t.settings.width, t.settings.height, t.truth.others[i - 1]);
+    const bool seen = t.truth.pose.status != PoseStatus::absent && t.truth.others[i - 1].status != PoseStatus::absent;
+    t.truth.covered = t.truth.covered || (seen && tank::overlap(t.target(), t.fish[i]));
+  }
+  t.truth.midline.assign(t.target().midline().begin(), t.target().midline().end());
   if (with_mask) {
-    t.truth.contour = t.shape.contour;
+    t.truth.contour = t.target().contour;
     t.fill_mask();
   }
   return t.truth;

@@ -6,7 +6,8 @@
 // The fish is a textured body whose outline is a width profile along a bending midline, with a forked or rounded
 // caudal fin and two pectoral fins that open, fold and beat on their own; fins are semi-transparent. It swims by a
 // travelling wave whose amplitude grows towards the tail, with speed changes, turns and burst-and-coast. Behind it lies
-// gravel; a soft shadow falls beside it; the sensor is noisy.
+// gravel; a soft shadow falls beside it; the sensor is noisy. Scenes add other fish, changing light, a moving surface,
+// dirt, a camera in the hand. The truth is the target's, in the pixels of the frame as it is seen.
 // Frame of reference: frame pixels, x right, y down.
 #pragma once
 #include <cstdint>
@@ -28,11 +29,13 @@ const TankScene* find_tank_scene(const std::string& name);  // null when there i
 std::vector<std::string> tank_scene_names();
 
 struct TankTruth {
-  FishPose pose;             // status ok when the fish is wholly visible; fins with confidence 0 are folded
-  bool visible = false;      // wholly inside the frame
-  std::vector<Vec2> midline; // dense, head to tail
-  std::vector<Vec2> contour; // closed, body with caudal and open pectoral fins
-  std::vector<uint8_t> mask; // width x height, 255 = fish (coverage of at least one half)
+  FishPose pose;                 // status ok when the fish is wholly visible; fins with confidence 0 are folded
+  bool visible = false;          // wholly inside the frame
+  bool covered = false;          // another fish lies over a part of it
+  std::vector<FishPose> others;  // of the other fish; points under another fish count as seen
+  std::vector<Vec2> midline;     // dense, head to tail
+  std::vector<Vec2> contour;     // closed, body with caudal and open pectoral fins
+  std::vector<uint8_t> mask;     // width x height, 255 = fish (coverage of at least one half)
 };
 
 struct TankSettings {

@@ -67,6 +67,31 @@ struct TankScene {
   float shadow_soft_bl = 0.035f;  // standard deviation of its edge
   float noise_sd = 2.5f;          // sensor noise, luma
   float vignette = 0.07f;         // loss of light in the frame's corners
+
+  // Light. Lumas above are those under the lamp.
+  float lamp_on_s = 0.0f;          // when the lamp is switched on; 0 = it is on
+  float light_before_lamp = 1.0f;  // share of the light that there is before
+  float light_drift = 0.0f;        // amplitude of a slow drift, share of the light
+  float flicker = 0.0f;            // amplitude of the flicker of 50 Hz mains, share of the light
+
+  // The water's surface and walls.
+  float caustics = 0.0f;     // light of the brightest line of the network, share of the light
+  float ripples = 0.0f;      // amplitude, share of the light
+  float wall_mirror = 0.0f;  // share of mirrored light in the strips of wall along the upper and lower edge
+  float wall_depth = 0.0f;   // of those strips, share of the frame's width
+
+  // What floats between fish and camera.
+  int bubbles = 0;
+  int particles = 0;
+
+  // A phone in the hand: largest shift (share of the frame's width), rotation, change of scale.
+  float shake_shift = 0.0f;
+  float shake_rad = 0.0f;
+  float shake_scale = 0.0f;
+
+  // Other fish.
+  int companions = 0;
+  float cross_every_s = 0.0f;  // time between two passes of the first companion over the target; 0 = it keeps away
 };
 
 std::span<const TankScene> tank_scenes();

@@ -7,11 +7,12 @@ namespace nt::tank {
 namespace {
 
 constexpr float kStepS = 1.0f / 120.0f;
-constexpr float kWallRoom = 0.72f;     // BL between the pivot and a wall before the fish steers away
-constexpr float kWallTurn = 2.2f;      // rad/s, the hardest it steers
-constexpr float kWallSpeed = 0.4f;     // BL/s, to which it brakes there
-constexpr float kOutside = 1.15f;      // BL past the edge at which nothing of the fish is seen
-constexpr float kStationSpeed = 0.6f;  // BL/s, the fastest it drifts
+constexpr float kWallRoom = 0.72f;      // BL between the pivot and a wall before the fish steers away
+constexpr float kWallTurn = 2.2f;       // rad/s, the hardest it steers
+constexpr float kWallSpeed = 0.4f;      // BL/s, to which it brakes there
+constexpr float kPassingSpeed = 0.08f;  // BL/s, of a fish that lets another swim off
+constexpr float kOutside = 1.15f;       // BL past the edge at which nothing of the fish is seen
+constexpr float kStationSpeed = 0.6f;   // BL/s, the fastest it drifts
 
 // Moves a value towards its target with the time constant tau.
 void follow(float& value, float target, float h, float tau) { value += (target - value) * det::min(h / tau, 1.0f); }
@@ -35,7 +36,8 @@ Swimmer::Swimmer(const TankScene& scene, uint64_t seed, int width, int height)
   pivot_ = size_ * 0.5f + Vec2{symmetric() * 0.05f * size_.x, symmetric() * 0.1f * size_.y};
   const bool from_left = random_.below(2) == 0;
   heading_ = from_left ? 0.0f : det::kPi;
-  station_ = size_ * 0.5f;
+  home_ = scene_.enters ? size_ * 0.5f : pivot_;
+  station_ = home_;
   station_heading_ = heading_;
   until_rest_s_ = scene_.hover_every_s;
   until_c_start_s_ = around(scene_.c_start_every_s);
@@ -51,6 +53,15 @@ Swimmer::Swimmer(const TankScene& scene, uint64_t seed, int width, int height)
     fin.until_change_s = random_.unit();
   }
 }
+
+void Swimmer::steer(Steer how, Vec2 point) {
+  steer_ = how;
+  steer_point_ = point;
+}
+
+Vec2 Swimmer::direction() const { return unit(heading_); }
+
+Vec2 Swimmer::velocity_px_s() const { return direction() * (place_ == Place::away ? 0.0f : speed_ * length_px_); }
 
 float Swimmer::around(float mean) { return mean * (0.5f + random_.unit()); }
 float Swimmer::symmetric() { return 2.0f * random_.unit() - 1.0f; }
@@ -151,6 +162,10 @@ bool Swimmer::near_wall() const {
 float Swimmer::wanted_turn(float h) {
   if (place_ != Place::inside) return det::clamp(2.5f * turn_towards(goal_), -kWallTurn, kWallTurn);
   if (near_wall()) return det::clamp(2.5f * turn_towards(size_ * 0.5f), -kWallTurn, kWallTurn);
+  if (steer_ != Steer::free) {
+    const float away = steer_ == Steer::away ? det::kPi : 0.0f;
+    return det::clamp(2.5f * det::wrap(turn_towards(steer_point_) + away), -kWallTurn, kWallTurn);
+  }
   until_wander_s_ -= h;
   if (until_wander_s_ <= 0) {
     until_wander_s_ = around(scene_.wander_s);
@@ -165,10 +180,12 @@ void Swimmer::swim(float h) {
     speed_ = 0.0f;
     return;
   }
-  const bool travels = place_ != Place::inside;
+  const bool travels = place_ != Place::inside || steer_ != Steer::free;
   const bool brakes = near_wall();
   const float swims = bursting_ || travels ? scene_.burst_bl_s : scene_.cruise_bl_s;
-  const float wanted = resting_ ? 0.0f : brakes ? det::min(swims, kWallSpeed) : swims;
+  const bool lets_pass =
+      steer_ == Steer::away && dot(unit(heading_), steer_point_ - pivot_) > -0.5f * length_px_;  // beside it or ahead
+  const float wanted = resting_ ? 0.0f : lets_pass ? kPassingSpeed : brakes ? det::min(swims, kWallSpeed) : swims;
   follow(speed_, wanted, h, bursting_ || travels || brakes ? 0.35f : 0.8f);
   const float turn = wanted_turn(h);
   if (c_start_age_s_ >= 0) {
@@ -191,7 +208,7 @@ void Swimmer::hold_station(float h) {
   until_wander_s_ -= h;
   if (until_wander_s_ <= 0) {
     until_wander_s_ = 1.5f * around(scene_.wander_s);
-    station_ = size_ * 0.5f + Vec2{symmetric() * scene_.drift_x_bl, symmetric() * scene_.drift_y_bl} * length_px_;
+    station_ = home_ + Vec2{symmetric() * scene_.drift_x_bl, symmetric() * scene_.drift_y_bl} * length_px_;
     station_turn_ = symmetric() * scene_.drift_rad;
   }
   // A damped spring to the drifting station, in body lengths.

@@ -18,6 +18,13 @@ class Swimmer {
   void advance(double dt_s);
   Posture posture() const;
 
+  // Towards or away from a point, as long as walls and rests let it; holds until it is set again.
+  enum class Steer { free, towards, away };
+  void steer(Steer how, Vec2 point);
+  Vec2 pivot() const { return pivot_; }
+  Vec2 direction() const;  // unit, of the body at the pivot
+  Vec2 velocity_px_s() const;
+
  private:
   enum class Place { inside, leaving, away, coming };
   struct Fin {
@@ -50,6 +57,8 @@ class Swimmer {
   Place place_ = Place::inside;
   float until_place_s_ = 0;
   Vec2 goal_;
+  Steer steer_ = Steer::free;
+  Vec2 steer_point_;
   Vec2 pivot_, velocity_;  // velocity is used by hold_station only
   float heading_ = 0, turn_rad_s_ = 0, wander_rad_s_ = 0, until_wander_s_ = 0;
   float speed_ = 0.3f;
@@ -58,7 +67,7 @@ class Swimmer {
   bool resting_ = false;
   float until_rest_s_ = 0;
   float c_start_age_s_ = -1, until_c_start_s_ = 0, c_start_turn_rad_ = 0;
-  Vec2 station_;
+  Vec2 home_, station_;
   float station_heading_ = 0, station_turn_ = 0;
   float bend_ = 0, wave_ = 0.1f, wave_phase_ = 0;
   Fin fins_[2];

@@ -18,7 +18,8 @@ TEST(TankScenes, NamesAreUniqueAndFound) {
     EXPECT_EQ(name, scene->name);
     EXPECT_GT(std::string(scene->about).size(), 10u) << name;
   }
-  for (const char* name : {"calm", "turns", "hover", "leave", "shadow", "night", "far", "near", "forked", "round"})
+  for (const char* name : {"calm", "turns", "hover", "leave", "shadow", "night", "far", "near", "forked", "round",
+                           "ghost", "station", "lamp", "surface", "dirt", "shake", "ring", "crossing", "long"})
     EXPECT_EQ(seen.count(name), 1u) << name;
   EXPECT_EQ(find_tank_scene("clam"), nullptr);
 }

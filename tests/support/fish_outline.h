@@ -31,7 +31,9 @@ class FishOutline {
   float axis_length() const { return shape_.length * end(); }
   Vec2 head() const { return at(0, 0); }
   Vec2 tail() const { return at(end(), 0); }
-  Vec2 fin_tip(float side) const { return at(0.42f, side * (half_width(0.42f) + 0.15f * shape_.length)); }  // +1 right
+  Vec2 fin_tip(float side) const {
+    return at(kFinTip, side * (half_width(kFinTip) + kFinSpan * shape_.length));
+  }  // +1 right
   Vec2 junction(float side, bool top) const { return flank(top ? kFinTop : kFinBottom, side); }
 
   // The point at share s of the arc, d pixels to the fish's right.
@@ -66,13 +68,22 @@ class FishOutline {
 
  private:
   static constexpr int kSteps = 400;
-  static constexpr float kWide = 0.1f, kNotch = 0.93f, kFinTop = 0.24f, kFinBottom = 0.36f;
+  static constexpr float kWide = 0.1f, kNotch = 0.93f, kFinTop = 0.24f, kFinBottom = 0.36f, kFinTip = 0.33f,
+                         kFinSpan = 0.15f;
   float end() const { return shape_.forked ? kNotch : 1.0f; }
   Vec2 flank(float s, float side) const { return at(s, side * half_width(s)); }
   void add(std::vector<Vec2>& corners, int i, float side, bool fin) const {
     const float s = static_cast<float>(i) / kSteps;
-    if (!fin || s < kFinTop || s > kFinBottom) corners.push_back(flank(s, side));
-    else if (corners.empty() || length(corners.back() - fin_tip(side)) > 0) corners.push_back(fin_tip(side));
+    corners.push_back(fin && s > kFinTop && s < kFinBottom ? fin_edge(s, side) : flank(s, side));
+  }
+  // The edges of a fin bulge a little: on a straight one every point has the largest angle of [F] section 4.4.
+  Vec2 fin_edge(float s, float side) const {
+    const float u = 2 * (s - kFinTop) / (kFinBottom - kFinTop), tip = half_width(kFinTip) + kFinSpan * shape_.length;
+    const bool leading = u < 1;
+    const float v = leading ? u : 2 - u, root = leading ? kFinTop : kFinBottom,
+                bulge = (leading ? 0.06f : -0.06f) * v * (1 - v);
+    return at(root + (kFinTip - root) * v - bulge,
+              side * (half_width(root) + (tip - half_width(root)) * v + bulge * shape_.length));
   }
   void step_along(Vec2 a, Vec2 b) {
     if (!contour_.empty() && length(a - contour_.back()) < 0.7f && length(b - a) < 1) return;  // no crowding

@@ -76,7 +76,7 @@ TEST(Midline, TheOutlineAlongTheAxisHasTheFishsWidths) {
 TEST(Midline, TheBodyHasNoFins) {
   const Scene s(FishShape{.left_fin = true, .right_fin = true});
   const StationValues body = body_half_width(s.widths);
-  EXPECT_GT(s.widths.side[0][26], s.fish.half_width(26.0f / kLast) + 15) << "the fin is in the outline";
+  EXPECT_GT(s.widths.side[0][21], s.fish.half_width(21.0f / kLast) + 15) << "the fin is in the outline";
   for (int j = 8; j < 50; ++j) {
     const float truth = s.fish.half_width(static_cast<float>(j) / kLast);
     EXPECT_NEAR(body[static_cast<std::size_t>(j)], truth, 0.35f * truth) << j;

@@ -49,6 +49,16 @@ TEST(Trace, ALineIsWalkedOutAndBack) {
   EXPECT_EQ(traced(mask.mask()).size(), 8u);
 }
 
+TEST(Trace, AVIsWalkedDownAndUpAndBack) {
+  Bits mask(5, 3);
+  mask.mask().set(1, 0), mask.mask().set(2, 1), mask.mask().set(3, 0);
+  const auto contour = traced(mask.mask());
+  ASSERT_EQ(contour.size(), 4u);
+  EXPECT_EQ(contour[1].y, 1);
+  EXPECT_EQ(contour[2].x, 3);
+  EXPECT_EQ(contour[3].y, 1);
+}
+
 TEST(Trace, FillingTheWholeMaskStaysInside) {
   for (const int width : {1, 2, 64, 65}) {
     Bits mask(width, 4, true);

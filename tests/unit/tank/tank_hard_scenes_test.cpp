@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/hash.h"
 #include "platform/sim/tank.h"
@@ -44,6 +45,24 @@ TEST(TankHardScenes, TheSameSeedGivesTheSameBytes) {
       ASSERT_EQ(hash, hash_of(b.render_next())) << scene << frame;
       ASSERT_NE(hash, hash_of(c.render_next())) << scene << frame;
     }
+  }
+}
+
+// The same on every target, 240 frames of each: they change only when the picture is changed on purpose.
+TEST(TankHardScenes, GoldenFrames) {
+  const std::pair<const char*, uint64_t> kFrames[] = {
+      {"ghost", 0x97dc8dd46ddd45aaull},   {"station", 0x94d965536db5df7full},  {"lamp", 0x3e60572ed47965ffull},
+      {"surface", 0x4566e028c26b1896ull}, {"dirt", 0x5486e64b310ebc8eull},     {"shake", 0x318627606e9d05ffull},
+      {"ring", 0x57aa300aacc610d9ull},    {"crossing", 0xf8c7a6cc781e79dbull}, {"long", 0x8ac26c3f5e70ab9dull},
+  };
+  for (const auto& [scene, expected] : kFrames) {
+    Tank tank = make(scene);
+    uint64_t hash = kHashSeed;
+    for (int frame = 0; frame < 240; ++frame) {
+      const LumaView view = tank.render_next();
+      for (int y = 0; y < view.height; ++y) hash = hash_bytes(view.row(y), static_cast<std::size_t>(view.width), hash);
+    }
+    EXPECT_EQ(hash, expected) << scene;
   }
 }
 

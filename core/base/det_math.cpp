@@ -42,10 +42,14 @@ SinCos sincos(float angle) {
   const double r = a - n * kHalfPiD;
   const double s = sin_small(r), c = cos_small(r);
   switch (static_cast<int64_t>(n) & 3) {
-    case 0: return {static_cast<float>(s), static_cast<float>(c)};
-    case 1: return {static_cast<float>(c), static_cast<float>(-s)};
-    case 2: return {static_cast<float>(-s), static_cast<float>(-c)};
-    default: return {static_cast<float>(-c), static_cast<float>(s)};
+    case 0:
+      return {static_cast<float>(s), static_cast<float>(c)};
+    case 1:
+      return {static_cast<float>(c), static_cast<float>(-s)};
+    case 2:
+      return {static_cast<float>(-s), static_cast<float>(-c)};
+    default:
+      return {static_cast<float>(-c), static_cast<float>(s)};
   }
 }
 

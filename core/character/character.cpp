@@ -46,7 +46,8 @@ bool all_below(std::span<const uint32_t> indices, uint32_t limit) {
 }
 
 Status check_preamble(std::span<const std::byte> bytes, CharacterHeader& h) {
-  if (bytes.size() < sizeof(CharacterHeader)) return bad("not a character file: too short; make it again with `neontetra character`");
+  if (bytes.size() < sizeof(CharacterHeader))
+    return bad("not a character file: too short; make it again with `neontetra character`");
   if (reinterpret_cast<uintptr_t>(bytes.data()) % kAlignment != 0) {
     return {StatusCode::bad_argument, "character bytes must start on a 64-byte line"};
   }

@@ -14,27 +14,27 @@ static_assert(std::endian::native == std::endian::little, "character files are u
 inline constexpr char kCharacterMagic[8] = {'N', 'T', 'C', 'H', 'A', 'R', '\0', '\1'};
 inline constexpr uint32_t kCharacterVersion = 1;
 inline constexpr uint32_t kCharacterLeftFin = 1, kCharacterRightFin = 2;  // bits of `flags`
-inline constexpr uint32_t kMaxTextureSide = 8192;                        // what every GLES 3 device of ours takes
+inline constexpr uint32_t kMaxTextureSide = 8192;                         // what every GLES 3 device of ours takes
 inline constexpr float kMaxCoordinate = 1e6f;                             // character units; keeps squares in float
 
 struct CharacterHeader {
   char magic[8];
   uint32_t version;
-  uint32_t header_bytes;       // 128
-  uint64_t checksum;           // FNV-1a (core/base/hash.h) of all bytes from file_bytes on
+  uint32_t header_bytes;  // 128
+  uint64_t checksum;      // FNV-1a (core/base/hash.h) of all bytes from file_bytes on
   uint64_t file_bytes;
   uint32_t u_num, l_num;
   uint32_t flags;
   uint32_t vertex_count, triangle_count;
   uint32_t texture_width, texture_height;
-  uint32_t reserved0;          // 0
-  uint64_t controls_offset;    // Vec2: centre, head, tail, up_axis[u_num], low_axis[l_num], jun_tl, jun_tr, jun_bl,
-                               // jun_br, l_fin, r_fin; points of a fin that is not there are 0
-  uint64_t vertices_offset;    // Vec2[vertex_count], character units
-  uint64_t texcoords_offset;   // Vec2[vertex_count]
-  uint64_t triangles_offset;   // uint32[3 * triangle_count]
-  uint64_t texture_offset;     // rgba8, rows top down without padding
-  uint8_t reserved1[24];       // 0
+  uint32_t reserved0;         // 0
+  uint64_t controls_offset;   // Vec2: centre, head, tail, up_axis[u_num], low_axis[l_num], jun_tl, jun_tr, jun_bl,
+                              // jun_br, l_fin, r_fin; points of a fin that is not there are 0
+  uint64_t vertices_offset;   // Vec2[vertex_count], character units
+  uint64_t texcoords_offset;  // Vec2[vertex_count]
+  uint64_t triangles_offset;  // uint32[3 * triangle_count]
+  uint64_t texture_offset;    // rgba8, rows top down without padding
+  uint8_t reserved1[24];      // 0
 };
 static_assert(sizeof(CharacterHeader) == 128 && offsetof(CharacterHeader, file_bytes) == 24);
 

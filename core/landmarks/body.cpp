@@ -36,9 +36,9 @@ Ends find_ends(std::span<const Vec2> contour, std::span<const float> arc, Vec2 b
 }
 
 int notch_of_tail(std::span<const Vec2> contour, std::span<const float> arc, Vec2 barycentre, int tail) {
-  constexpr float kReach = 0.15f;    // of the perimeter: the width of a spread caudal fin, measured along its edge
-  constexpr float kDip = 0.985f;     // the notch must lie this much nearer to the barycentre than the lesser tip
-  constexpr float kAsFar = 0.85f;    // both tips of a caudal fin are about as far away
+  constexpr float kReach = 0.15f;  // of the perimeter: the width of a spread caudal fin, measured along its edge
+  constexpr float kDip = 0.985f;   // the notch must lie this much nearer to the barycentre than the lesser tip
+  constexpr float kAsFar = 0.85f;  // both tips of a caudal fin are about as far away
   const int n = static_cast<int>(contour.size());
   const float farthest = distance_sq(contour, tail, barycentre);
   int best_notch = tail;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
 constexpr float kSnout = 0.05f, kPeduncle = 0.8f;
-constexpr float kStandsOut = 0.032f;         // of the length, above the body: less is outline noise or a folded fin
+constexpr float kStandsOut = 0.032f;  // of the length, above the body: less is outline noise or a folded fin
 
 // One side of the outline as a sequence from head to tail.
 struct SideWalk {
@@ -19,13 +19,13 @@ struct SideWalk {
 // Depth of `p` below the line from q to r, positive on the side of the fish's axis.
 float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
 
-constexpr float kHeadRound = 0.08f;          // of the length: before it every head gets narrower
-constexpr float kBreadth = 0.02f;            // of the length, half-way up
-constexpr float kTipRound = 0.06f;            // of the length: as near to the tip the outline turns round it
+constexpr float kHeadRound = 0.08f;  // of the length: before it every head gets narrower
+constexpr float kBreadth = 0.02f;    // of the length, half-way up
+constexpr float kTipRound = 0.06f;   // of the length: as near to the tip the outline turns round it
 
 // The junction between the tip (position k_tip of the walk) and P at position k_end (0: head, last: tail).
 int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip, int k_end, float inward,
-                       float tip_round) {
+                  float tip_round) {
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const int step = k_end > k_tip ? 1 : -1;
   const Vec2 q = point(k_tip), to_p = normalised(point(k_end) - q);
@@ -52,8 +52,8 @@ int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip
 
 }  // namespace
 
-Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right,
-             const StationValues& body, float axis_length, Side side) {
+Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right, const StationValues& body,
+             float axis_length, Side side) {
   const int n = static_cast<int>(contour.size());
   const bool is_right = side == Side::right;
   const SideWalk walk{right.begin, is_right ? right.count : n - right.count, is_right ? 1 : -1, n};

@@ -28,7 +28,7 @@ struct Fin {
 enum class Side : uint8_t { left, right };
 
 // `body`: half-widths without fins.
-Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right,
-             const StationValues& body, float axis_length, Side side);
+Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, Stretch right, const StationValues& body,
+             float axis_length, Side side);
 
 }  // namespace nt

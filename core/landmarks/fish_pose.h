@@ -28,11 +28,11 @@ struct FishPose {
   Vec2 centre;  // the point of the medial axis nearest to the barycentre
   Vec2 dir;     // unit, towards the head
   Vec2 head, tail;
-  Vec2 l_fin, r_fin;                        // pectoral fin tips; left and right as the fish has them, seen from above
-  Vec2 jun_tl, jun_tr, jun_bl, jun_br;      // fin-body junctions: top (head side) and bottom, left and right
-  Vec2 up_axis[kMaxUpAxis];                 // [0] next to centre .. [u_num-1] next to head
-  Vec2 low_axis[kMaxLowAxis];               // [0] next to centre .. [l_num-1] next to tail
-  float axis_len = 0;                       // length of the medial axis head to tail, pixels
+  Vec2 l_fin, r_fin;                    // pectoral fin tips; left and right as the fish has them, seen from above
+  Vec2 jun_tl, jun_tr, jun_bl, jun_br;  // fin-body junctions: top (head side) and bottom, left and right
+  Vec2 up_axis[kMaxUpAxis];             // [0] next to centre .. [u_num-1] next to head
+  Vec2 low_axis[kMaxLowAxis];           // [0] next to centre .. [l_num-1] next to tail
+  float axis_len = 0;                   // length of the medial axis head to tail, pixels
   PoseConfidence confidence;
 
   bool ok() const { return status == PoseStatus::ok; }

@@ -14,14 +14,16 @@ namespace {
 
 // Shape and travel of consecutive frames are nearly the same observation, so each later frame adds only a part.
 constexpr float kRepeatedEvidence = 0.2f;
-constexpr int kArcReach = 4;  // points: a ragged rim is not longer than a smooth one
-constexpr int kRounds = 2;  // of centring
+constexpr float kShortest_px = 8.0f;  // below it the outline's pixel steps are the shape
+constexpr float kRoundest = 1.35f;    // length^2 / area: a disc has 1.27, an angelfish 1.5, a trout 8
+constexpr int kArcReach = 4;          // points: a ragged rim is not longer than a smooth one
+constexpr int kRounds = 2;            // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kTrim = 0.05f;
 
 struct LandmarksImpl final : Landmarks {
   LandmarkSettings settings;
-  std::span<Vec2> contour;       // a copy, clockwise on the screen
+  std::span<Vec2> contour;  // a copy, clockwise on the screen
   std::span<float> arc;
   std::span<AlongAxis> along;
   std::span<Vec2> smooth;
@@ -63,7 +65,8 @@ bool LandmarksImpl::decide_order(const LandmarkHints& hints) {
   return belief >= 0;
 }
 
-void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body, FishPose& pose) const {
+void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body,
+                                 FishPose& pose) const {
   const std::span<const AlongAxis> places = along.first(c.size());
   const Fin l = find_fin(c, places, right, body, axis.length, Side::left);
   const Fin r = find_fin(c, places, right, body, axis.length, Side::right);
@@ -111,7 +114,8 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   const EllipticFourier fourier = fit_fourier(c, arcs, settings.harmonics);
   const auto t = [&](int i) { return arcs[static_cast<std::size_t>(i)] / perimeter; };
   axis = medial_axis(fourier, t(ends.head), t(ends.tail), smooth);
-  if (axis.length < 8.0f || axis.length < 1.2f * det::abs(moments.area) / axis.length) return false;
+  // Written so that a length that is not a number is refused too.
+  if (!(axis.length >= kShortest_px) || axis.length * axis.length < kRoundest * area) return false;
   const bool kept = decide_order(hints);
   const int head = kept ? ends.head : ends.tail;
   const int tail = notch_of_tail(c, arcs, moments.centroid, kept ? ends.tail : ends.head);
@@ -171,12 +175,18 @@ std::span<const Vec2> Landmarks::midline() const { return impl(*this).axis.point
 
 const char* to_string(PoseStatus status) {
   switch (status) {
-    case PoseStatus::ok: return "ok";
-    case PoseStatus::partial: return "partial";
-    case PoseStatus::occluded: return "occluded";
-    case PoseStatus::absent: return "absent";
-    case PoseStatus::lost: return "lost";
-    case PoseStatus::relearn: return "relearn";
+    case PoseStatus::ok:
+      return "ok";
+    case PoseStatus::partial:
+      return "partial";
+    case PoseStatus::occluded:
+      return "occluded";
+    case PoseStatus::absent:
+      return "absent";
+    case PoseStatus::lost:
+      return "lost";
+    case PoseStatus::relearn:
+      return "relearn";
   }
   return "";
 }

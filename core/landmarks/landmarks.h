@@ -22,24 +22,25 @@ struct LandmarkSettings {
 
 // What is known from elsewhere about which end is the head. All optional.
 struct LandmarkHints {
-  bool has_last = false;   // the ends of the last frame's fish, moved to where they should be now
+  bool has_last = false;  // the ends of the last frame's fish, moved to where they should be now
   Vec2 last_head, last_tail;
-  float head_log_odds = 0; // belief so far that last_head really is the head (natural log of odds)
-  Vec2 travel;             // displacement of the centre over the last frames, pixels; 0 when at rest
+  float head_log_odds = 0;  // belief so far that last_head really is the head (natural log of odds)
+  Vec2 travel;              // displacement of the centre over the last frames, pixels; 0 when at rest
 };
 
 class Landmarks {
  public:
-  static Landmarks* create(Arena& arena, const Limits& limits, const LandmarkSettings& settings);  // null when measuring
+  static Landmarks* create(Arena& arena, const Limits& limits,
+                           const LandmarkSettings& settings);  // null when measuring
 
   // False when the outline is no fish (too short, no area, self-touching); pose.status tells nothing then.
   bool find(std::span<const Vec2> contour, const LandmarkHints& hints, FishPose& pose);
 
-  float head_log_odds() const;                    // belief after the last find
-  float area_px() const;                          // inside the outline of the last find
-  bool swapped() const;                           // the last find reversed the order that the hints had
-  std::span<const Vec2> smooth_contour() const;   // elliptic Fourier reconstruction of the last find
-  std::span<const Vec2> midline() const;          // dense medial axis of the last find, head to tail
+  float head_log_odds() const;                   // belief after the last find
+  float area_px() const;                         // inside the outline of the last find
+  bool swapped() const;                          // the last find reversed the order that the hints had
+  std::span<const Vec2> smooth_contour() const;  // elliptic Fourier reconstruction of the last find
+  std::span<const Vec2> midline() const;         // dense medial axis of the last find, head to tail
 };
 
 }  // namespace nt

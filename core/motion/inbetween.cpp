@@ -16,7 +16,8 @@ Motion in_between(const Motion& from, const Motion& to, float t) {
   // Two samplings of the axis have no bones in common to go between.
   if (from.u_num != to.u_num || from.l_num != to.l_num) return nearer_to ? to : from;
   Motion m = nearer_to ? to : from;
-  m.time_ns = from.time_ns + static_cast<int64_t>(static_cast<double>(to.time_ns - from.time_ns) * static_cast<double>(t));
+  m.time_ns =
+      from.time_ns + static_cast<int64_t>(static_cast<double>(to.time_ns - from.time_ns) * static_cast<double>(t));
   m.centre = lerp(from.centre, to.centre, t);
   m.dir_rad = lerp_angle(from.dir_rad, to.dir_rad, t);
   m.head_angle = lerp_angle(from.head_angle, to.head_angle, t);

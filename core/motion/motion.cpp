@@ -56,8 +56,8 @@ Motion motion_from_pose(const FishPose& pose, int64_t time_ns, const Motion* las
 
   const float near_l = last != nullptr ? last->l_fin_angle : kFoldedLeftFin;
   const float near_r = last != nullptr ? last->r_fin_angle : kFoldedRightFin;
-  m.l_fin_angle = pose.confidence.l_fin > 0.0f ? local.angle(pose.jun_tl, pose.l_fin, near_l)
-                                               : det::unwrap(kFoldedLeftFin, near_l);
+  m.l_fin_angle =
+      pose.confidence.l_fin > 0.0f ? local.angle(pose.jun_tl, pose.l_fin, near_l) : det::unwrap(kFoldedLeftFin, near_l);
   m.r_fin_angle = pose.confidence.r_fin > 0.0f ? local.angle(pose.jun_tr, pose.r_fin, near_r)
                                                : det::unwrap(kFoldedRightFin, near_r);
   return m;

@@ -15,7 +15,7 @@ namespace nt {
 inline constexpr int kMaxHarmonics = 16;
 
 struct EllipticFourier {
-  int harmonics = 0;       // S
+  int harmonics = 0;  // S
   double a0 = 0, c0 = 0;
   double a[kMaxHarmonics] = {}, b[kMaxHarmonics] = {}, c[kMaxHarmonics] = {}, d[kMaxHarmonics] = {};
 

@@ -186,7 +186,8 @@ Axis resampled(std::span<const Vec2> polyline) {
 Vec2 point_at(const Axis& axis, float s) {
   const float at = det::clamp(s, 0.0f, 1.0f) * kLast;
   const int j = min_int(static_cast<int>(at), kLast - 1);
-  return lerp(axis.points[static_cast<std::size_t>(j)], axis.points[static_cast<std::size_t>(j) + 1], at - static_cast<float>(j));
+  return lerp(axis.points[static_cast<std::size_t>(j)], axis.points[static_cast<std::size_t>(j) + 1],
+              at - static_cast<float>(j));
 }
 
 Vec2 tangent_at(const Axis& axis, float s) {

@@ -37,4 +37,12 @@ Moments polygon_moments(std::span<const Vec2> contour) {
   return m;
 }
 
+float polygon_area(std::span<const Vec2> contour) {
+  const std::size_t n = contour.size();
+  double twice = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    twice += static_cast<double>(cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0]));
+  return static_cast<float>(0.5 * twice);
+}
+
 }  // namespace nt

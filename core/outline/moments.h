@@ -11,12 +11,15 @@
 namespace nt {
 
 struct Moments {
-  float area = 0;         // pixels^2, positive when the contour runs clockwise on the screen
+  float area = 0;  // pixels^2, positive when the contour runs clockwise on the screen
   Vec2 centroid;
-  Vec2 axis{1, 0};        // eigenvector of the larger eigenvalue
+  Vec2 axis{1, 0};             // eigenvector of the larger eigenvalue
   float major = 0, minor = 0;  // standard deviations along the axes
 };
 
 Moments polygon_moments(std::span<const Vec2> contour);
+
+// Its area alone, with the same sign.
+float polygon_area(std::span<const Vec2> contour);
 
 }  // namespace nt

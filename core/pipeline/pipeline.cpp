@@ -5,6 +5,7 @@
 #include "core/base/det_math.h"
 #include "core/base/hash.h"
 #include "core/landmarks/landmarks.h"
+#include "core/outline/moments.h"
 #include "core/outline/trace.h"
 #include "core/segment/blobs.h"
 #include "core/segment/clean.h"
@@ -18,7 +19,9 @@ namespace {
 // A lamp switched on, or a camera that was pushed: this share of the picture differs for this many frames.
 constexpr float kFloodShare = 0.4f;
 constexpr int kFloodFrames = 8;
-constexpr int kForgetOrder = 5;          // frames without a pose after which the order of head and tail is open again
+constexpr float kRingHole = 0.1f;  // share of the outline: eyes of the ground's tone are 2 %, a ring's hole much more
+constexpr int kGhostBlobs = 64;    // more blobs than this are specks, not ghosts; bounds the cost of looking
+constexpr int kForgetOrder = 5;    // frames without a pose after which the order of head and tail is open again
 constexpr float kTravelFrames = 5.0f;
 
 struct CaptureImpl final : Capture {
@@ -93,7 +96,8 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
 bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& report) {
   const bool means_something = background->apply(frame.luma, kept ? &keep : nullptr, raw);
   clock.lap(Stage::background);
-  report.foreground_share = static_cast<float>(count_bits(raw)) / (static_cast<float>(width) * static_cast<float>(height));
+  report.foreground_share =
+      static_cast<float>(count_bits(raw)) / (static_cast<float>(width) * static_cast<float>(height));
   flood_frames = report.foreground_share > kFloodShare ? flood_frames + 1 : 0;
   if (flood_frames >= kFloodFrames) {
     background->restart();
@@ -110,7 +114,7 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   if (blobs->runs_dropped()) report.flags |= kRunsDropped;
   if (blobs->blobs_dropped()) report.flags |= kBlobsDropped;
   report.blobs = static_cast<int>(blobs->blobs().size());
-  for (int i = 0; i < report.blobs; ++i) {
+  for (int i = 0; i < report.blobs && report.blobs <= kGhostBlobs; ++i) {
     if (!is_ghost(frame.luma, background->estimate(), blobs->runs(), i)) continue;
     blobs->mark_ghost(i);
     background->absorb(frame.luma, blobs->runs(), i);
@@ -124,7 +128,8 @@ bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, Step
   const Blob& blob = blobs->blobs()[static_cast<std::size_t>(index)];
   const FishMask fish = refine->fish(frame.luma, background->estimate(), background->noise_sigma(), blob, index,
                                      blobs->runs(), settings.shadows && background->can_have_shadows());
-  if (refine->dropped()) report.flags |= kRunsDropped;
+  if (refine->runs_dropped()) report.flags |= kRunsDropped;
+  if (refine->blobs_dropped()) report.flags |= kBlobsDropped;
   if (fish.shadow_removed) report.flags |= kShadowRemoved;
   protect_fish(&fish);
   clock.lap(Stage::refine);
@@ -138,13 +143,20 @@ bool CaptureImpl::outline(const Frame& frame, int index, StageClock& clock, Step
   for (int i = 0; i < contour_count; ++i) {
     const Vec2 p = contour[static_cast<std::size_t>(i)];
     if (i == 0) fish_box = {static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.x), static_cast<int>(p.y)};
-    fish_box.x0 = min_int(fish_box.x0, static_cast<int>(p.x)), fish_box.x1 = max_int(fish_box.x1, static_cast<int>(p.x) + 1);
-    fish_box.y0 = min_int(fish_box.y0, static_cast<int>(p.y)), fish_box.y1 = max_int(fish_box.y1, static_cast<int>(p.y) + 1);
+    fish_box.x0 = min_int(fish_box.x0, static_cast<int>(p.x)),
+    fish_box.x1 = max_int(fish_box.x1, static_cast<int>(p.x) + 1);
+    fish_box.y0 = min_int(fish_box.y0, static_cast<int>(p.y)),
+    fish_box.y1 = max_int(fish_box.y1, static_cast<int>(p.y) + 1);
     touches_edge |= p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom;
   }
   clock.lap(Stage::outline);
+  // By Pick's theorem an outline of n border pixels and area A holds A + n / 2 + 1 pixels; what the mask lacks is a hole.
+  const float enclosed = det::abs(polygon_area({contour.data(), static_cast<std::size_t>(contour_count)})) +
+                         0.5f * static_cast<float>(contour_count) + 1.0f;
+  const bool ring = enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed;
   if (touches_edge) report.status = PoseStatus::partial;
-  return contour_count > 0 && !touches_edge;
+  else if (ring) report.status = PoseStatus::occluded;
+  return contour_count > 0 && !touches_edge && !ring;
 }
 
 // The fish is not learned as background: what is around it becomes next frame's `keep`.
@@ -173,13 +185,14 @@ void CaptureImpl::remember_pose() {
   travel = has_last ? travel * (1.0f - 1.0f / kTravelFrames) + (pose.centre - last_centre) : Vec2{};
   last_head = pose.head, last_tail = pose.tail, last_centre = pose.centre;
   has_last = true;
+  frames_without_pose = 0;
   if (init_len == 0) init_len = pose.axis_len;
 }
 
 void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& report) {
   // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
   if (target.changed() || frames_without_pose > kForgetOrder) has_last = false, head_log_odds = 0;
-  frames_without_pose = 0;
+  if (target.changed()) init_len = 0;
   LandmarkHints hints;
   hints.has_last = has_last;
   hints.last_head = last_head + target.velocity(), hints.last_tail = last_tail + target.velocity();
@@ -187,7 +200,7 @@ void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& r
   hints.travel = has_last ? travel : target.velocity() * kTravelFrames;
   const bool found = landmarks->find({contour.data(), static_cast<std::size_t>(contour_count)}, hints, pose);
   clock.lap(Stage::landmarks);
-  if (!found || !target.observe(fish_box, pose.centre, landmarks->area_px())) {
+  if (!found || !target.observe(fish_box, pose.centre, landmarks->area_px(), pose.axis_len)) {
     report.status = PoseStatus::occluded;
     return;
   }
@@ -211,13 +224,14 @@ void CaptureImpl::take_fingerprint() {
 }
 
 void CaptureImpl::finish(PoseStatus status, StepReport& report) {
-  if (settings.fingerprint) take_fingerprint();
   report.status = status;
-  if (status == PoseStatus::ok) return;
-  ++frames_without_pose;
-  pose.status = status;
-  pose.confidence = {};
-  contour_count = 0;
+  if (status != PoseStatus::ok) {
+    ++frames_without_pose;
+    pose.status = status;
+    pose.confidence = {};
+    contour_count = 0;
+  }
+  if (settings.fingerprint) take_fingerprint();
 }
 
 StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
@@ -225,7 +239,7 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
   StageClock clock(now, report.times);
   view_count = 0;
   if (frame.luma.width != width || frame.luma.height != height) {
-    report.flags |= kFrameTooLarge;
+    report.flags |= kFrameSize;
     finish(PoseStatus::absent, report);
     return report;
   }
@@ -269,7 +283,8 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
     return Status{StatusCode::bad_argument, "open_size must be odd: 1, 3, 5 ..."};
   Arena arena(memory);
   auto self = arena.take<CaptureImpl>(1);
-  if (self.empty()) return Status{StatusCode::out_of_memory, "the memory handed to core is smaller than bytes_needed()"};
+  if (self.empty())
+    return Status{StatusCode::out_of_memory, "the memory handed to core is smaller than bytes_needed()"};
   CaptureImpl& c = self[0];
   c.limits = limits, c.settings = settings;
   c.width = width, c.height = height;
@@ -280,7 +295,10 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
   return static_cast<Capture*>(&c);
 }
 
-void Capture::learn(const Frame& frame) { impl(*this).background->learn(frame.luma); }
+void Capture::learn(const Frame& frame) {
+  CaptureImpl& c = impl(*this);
+  if (frame.luma.width == c.width && frame.luma.height == c.height) c.background->learn(frame.luma);
+}
 StepReport Capture::step(const Frame& frame, NowNs now) { return impl(*this).run(frame, now); }
 void Capture::select_at(Vec2 point) { impl(*this).target.select_at(point); }
 void Capture::select_next() { impl(*this).target.select_next(); }
@@ -305,11 +323,16 @@ int Capture::contour_points_high_water() const { return impl(*this).contour_high
 
 const char* limit_to_raise(StepFlag flag) {
   switch (flag) {
-    case kRunsDropped: return "max_runs";
-    case kBlobsDropped: return "max_blobs";
-    case kContourCut: return "max_contour_points";
-    case kFrameTooLarge: return "max_width, max_height";
-    default: return "";
+    case kRunsDropped:
+      return "max_runs";
+    case kBlobsDropped:
+      return "max_blobs";
+    case kContourCut:
+      return "max_contour_points";
+    case kFrameSize:
+      return "max_width, max_height";
+    default:
+      return "";
   }
 }
 

@@ -24,33 +24,33 @@ struct CaptureSettings {
   BackgroundSettings background;
   int u_num = 3;
   int l_num = 15;
-  int harmonics = 5;          // S of [F] section 4.3
-  int open_size = 3;          // side of the opening's square; 1 switches it off
-  int min_area_px = 0;        // smaller blobs are dropped; 0 = 1/4000 of the frame
-  bool shadows = true;        // Otsu shadow removal, where the background model can have shadows at all
-  int lost_after = 30;        // frames without the target until it counts as lost and selection starts anew
-  uint64_t seed = 1;          // of the background model's random choices
-  bool fingerprint = false;   // compute integer_hash(); tests compare it between machines
+  int harmonics = 5;         // S of [F] section 4.3
+  int open_size = 3;         // side of the opening's square; 1 switches it off
+  int min_area_px = 0;       // smaller blobs are dropped; 0 = 1/4000 of the frame
+  bool shadows = true;       // Otsu shadow removal, where the background model can have shadows at all
+  int lost_after = 30;       // frames without the target until it counts as lost and selection starts anew
+  uint64_t seed = 1;         // of the background model's random choices
+  bool fingerprint = false;  // compute integer_hash(); tests compare it between machines
 };
 
 // Bits of StepReport::flags. Each names what was dropped and the limit to raise.
 enum StepFlag : uint32_t {
-  kRunsDropped = 1u << 0,        // Limits::max_runs
-  kBlobsDropped = 1u << 1,       // Limits::max_blobs
-  kContourCut = 1u << 2,         // Limits::max_contour_points
-  kFrameTooLarge = 1u << 3,      // Limits::max_width / max_height: the frame was not processed
-  kRelearned = 1u << 4,          // the background was learned anew (a lamp, a moved camera)
-  kHeadTailSwapped = 1u << 5,    // the order of head and tail was corrected in this frame
-  kShadowRemoved = 1u << 6,      // Otsu took a shadow away
+  kRunsDropped = 1u << 0,      // Limits::max_runs
+  kBlobsDropped = 1u << 1,     // Limits::max_blobs
+  kContourCut = 1u << 2,       // Limits::max_contour_points
+  kFrameSize = 1u << 3,        // the frame has another size than create() was told: not processed
+  kRelearned = 1u << 4,        // the background was learned anew (a lamp, a moved camera)
+  kHeadTailSwapped = 1u << 5,  // the order of head and tail was corrected in this frame
+  kShadowRemoved = 1u << 6,    // Otsu took a shadow away
 };
 const char* limit_to_raise(StepFlag flag);  // "" for flags that are no limits
 
 struct StepReport {
   uint32_t flags = 0;
   PoseStatus status = PoseStatus::absent;
-  int blobs = 0;                   // salient components in this frame
-  float foreground_share = 0;      // of the raw mask, 0..1
-  StageTimes times;                // nanoseconds per stage; zero without a clock
+  int blobs = 0;               // salient components in this frame
+  float foreground_share = 0;  // of the raw mask, 0..1
+  StageTimes times;            // nanoseconds per stage; zero without a clock
 };
 
 // A salient component, as `live` shows it for selection.
@@ -69,6 +69,7 @@ class Capture {
                                  int width, int height);
 
   // Shows the background model one frame before the first step: `still` takes the median of up to 20 of these.
+  // A frame of another size is ignored.
   void learn(const Frame& frame);
 
   StepReport step(const Frame& frame, NowNs now = nullptr);
@@ -79,17 +80,18 @@ class Capture {
   void select_auto();
   void relearn();  // forget the background and start again with the next frame
 
-  const FishPose& pose() const;      // of the last step
-  const Motion& motion() const;      // of the last step that gave a pose
-  float init_len() const;            // axis length in the first tracked frame, pixels; 0 before (Eq 15)
+  const FishPose& pose() const;  // of the last step
+  const Motion& motion() const;  // of the last step that gave a pose
+  float init_len() const;        // axis length in the first tracked frame, pixels; 0 before (Eq 15)
   std::span<const BlobView> blobs() const;
   std::span<const Vec2> contour() const;         // original outline of the fish, last step; empty without a pose
   std::span<const Vec2> smooth_contour() const;  // its elliptic Fourier reconstruction
   const char* background_name() const;
-  uint64_t integer_hash() const;     // of all integer stages of the last step: masks, blobs, contour (settings.fingerprint)
+  uint64_t integer_hash()
+      const;  // of all integer stages of the last step: masks, blobs, contour (settings.fingerprint)
 
-  std::size_t bytes_used() const;                // of the memory handed in
-  int contour_points_high_water() const;         // against Limits::max_contour_points
+  std::size_t bytes_used() const;         // of the memory handed in
+  int contour_points_high_water() const;  // against Limits::max_contour_points
 };
 
 }  // namespace nt

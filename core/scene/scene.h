@@ -34,14 +34,14 @@ enum class ItemKind : uint8_t { image, mesh, lines, points };
 
 struct SceneItem {
   ItemKind kind = ItemKind::image;
-  Picture picture;                     // image, mesh
-  Vec2 at, size;                       // image: top left corner and extent
-  std::span<const Vec2> positions;     // mesh: vertices; lines: a strip; points: centres
-  std::span<const Vec2> texcoords;     // mesh: in [0, 1], v down, one per vertex
-  std::span<const uint32_t> indices;   // mesh: three per triangle
-  Colour colour;                       // lines, points; multiplies images and meshes
-  float width_px = 1;                  // lines: thickness; points: diameter
-  bool closed = false;                 // lines: join the last to the first
+  Picture picture;                    // image, mesh
+  Vec2 at, size;                      // image: top left corner and extent
+  std::span<const Vec2> positions;    // mesh: vertices; lines: a strip; points: centres
+  std::span<const Vec2> texcoords;    // mesh: in [0, 1], v down, one per vertex
+  std::span<const uint32_t> indices;  // mesh: three per triangle
+  Colour colour;                      // lines, points; multiplies images and meshes
+  float width_px = 1;                 // lines: thickness; points: diameter
+  bool closed = false;                // lines: join the last to the first
 };
 
 inline constexpr int kMaxItems = 256;

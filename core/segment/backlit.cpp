@@ -89,7 +89,8 @@ void Backlit::fit(LumaView luma) {
     float a[kTerms][kTerms] = {}, b[kTerms] = {};
     for (int j = 0; j < kCellsY; ++j) {
       for (int i = 0; i < kCellsX; ++i) {
-        basis((2.0f * static_cast<float>(i) + 1) / kCellsX - 1, (2.0f * static_cast<float>(j) + 1) / kCellsY - 1, terms);
+        basis((2.0f * static_cast<float>(i) + 1) / kCellsX - 1, (2.0f * static_cast<float>(j) + 1) / kCellsY - 1,
+              terms);
         const float value = cells_[static_cast<std::size_t>(j * kCellsX + i)];
         const float r = (value - value_of(coefficients, terms)) / c;
         const float w = 1.0f / (1.0f + r * r);

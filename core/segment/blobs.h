@@ -53,8 +53,8 @@ class Blobs {
     Box box;
   };
   std::span<Run> runs_;
-  std::span<int32_t> parent_;   // union-find over runs
-  std::span<Sums> sums_;        // per component
+  std::span<int32_t> parent_;  // union-find over runs
+  std::span<Sums> sums_;       // per component
   std::span<Blob> blobs_;
   int run_count_ = 0, blob_count_ = 0;
   bool runs_dropped_ = false, blobs_dropped_ = false;

@@ -54,7 +54,8 @@ void spread(const BitMask& from, const BitMask& to, int step) { morph<false>(fro
 void open_mask(const BitMask& from, const BitMask& scratch, const BitMask& to, int size) {
   const int r = (size - 1) / 2;
   if (r == 0) {
-    std::memcpy(to.words, from.words, static_cast<std::size_t>(from.words_per_row) * static_cast<std::size_t>(from.height) * 8);
+    std::memcpy(to.words, from.words,
+                static_cast<std::size_t>(from.words_per_row) * static_cast<std::size_t>(from.height) * 8);
     return;
   }
   // r erosions and r dilations, to and fro between scratch and `to`: an even number, so the last ends in `to`.

@@ -61,21 +61,24 @@ void follow_segment(const uint8_t* luma, uint8_t* background, uint64_t frozen, F
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground) {
   for (int y = 0; y < luma.height; ++y) {
     uint64_t* words = foreground.row(y);
-    for_both(luma.row(y), background.row(y), luma.width, [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
-      const uint64_t bright = sign >= 0 ? excess_word(v, b, threshold) : 0;
-      const uint64_t dark = sign <= 0 ? excess_word(b, v, threshold) : 0;
-      words[i] = (bright | dark) & valid;
-    });
+    for_both(luma.row(y), background.row(y), luma.width,
+             [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
+               const uint64_t bright = sign >= 0 ? excess_word(v, b, threshold) : 0;
+               const uint64_t dark = sign <= 0 ? excess_word(b, v, threshold) : 0;
+               words[i] = (bright | dark) & valid;
+             });
   }
 }
 
-void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright, const BitMask& dark) {
+void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright,
+                         const BitMask& dark) {
   for (int y = 0; y < luma.height; ++y) {
     uint64_t *bright_words = bright.row(y), *dark_words = dark.row(y);
-    for_both(luma.row(y), background.row(y), luma.width, [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
-      bright_words[i] = excess_word(v, b, threshold) & valid;
-      dark_words[i] = excess_word(b, v, threshold) & valid;
-    });
+    for_both(luma.row(y), background.row(y), luma.width,
+             [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
+               bright_words[i] = excess_word(v, b, threshold) & valid;
+               dark_words[i] = excess_word(b, v, threshold) & valid;
+             });
   }
 }
 

@@ -4,9 +4,9 @@
 namespace nt {
 namespace {
 
-constexpr int kReach = 3;        // pixels to either side of a run's end: past the blur of an edge
-constexpr int kClearly = 2;      // the background's steps must be this many times the picture's
-constexpr int kLeastStep = 12;   // grey levels a run end: below it there is no edge to speak of
+constexpr int kReach = 3;       // pixels to either side of a run's end: past the blur of an edge
+constexpr int kClearly = 2;     // the background's steps must be this many times the picture's
+constexpr int kLeastStep = 12;  // grey levels a run end: below it there is no edge to speak of
 
 int step_across(LumaView image, int x, int y) {
   const uint8_t* row = image.row(y);

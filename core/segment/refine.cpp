@@ -23,8 +23,10 @@ constexpr float kSameTexture = 0.2f;
 // eyes are much darker than the rest of it.
 constexpr double kLargestShadow = 0.55;
 
+// The weak mask is not opened, so it falls into more parts than the frame has blobs.
+constexpr int kPartsPerBlob = 4;
 constexpr float kGlow = 0.12f;  // of the fish's own contrast; its fins have a quarter of it and more
-constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
+constexpr float kNoisy = 4.0f;  // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
@@ -97,8 +99,10 @@ bool texture_kept(LumaView luma, LumaView background, const BitMask& mask) {
   });
   if (n < 32 || sb == 0) return false;
   const double count = static_cast<double>(n);
-  const double variance = static_cast<double>(sbb) / count - static_cast<double>(sb) / count * (static_cast<double>(sb) / count);
-  const double covariance = static_cast<double>(sbi) / count - static_cast<double>(sb) / count * (static_cast<double>(si) / count);
+  const double variance =
+      static_cast<double>(sbb) / count - static_cast<double>(sb) / count * (static_cast<double>(sb) / count);
+  const double covariance =
+      static_cast<double>(sbi) / count - static_cast<double>(sb) / count * (static_cast<double>(si) / count);
   const double ratio = static_cast<double>(si) / static_cast<double>(sb);
   if (variance < 9.0 || ratio < 0.4 || ratio > 0.95) return false;
   const double slope = covariance / variance;
@@ -109,11 +113,15 @@ bool texture_kept(LumaView luma, LumaView background, const BitMask& mask) {
 
 Refine* Refine::create(Arena& arena, const Limits& limits) {
   auto self = arena.take<Refine>(1);
-  const std::size_t words = static_cast<std::size_t>(words_for(limits.max_width)) * static_cast<std::size_t>(limits.max_height);
+  const std::size_t words =
+      static_cast<std::size_t>(words_for(limits.max_width)) * static_cast<std::size_t>(limits.max_height);
   std::span<uint64_t> masks[7];
   for (auto& m : masks) m = arena.take_raw<uint64_t>(words);
-  auto blurred = arena.take_raw<uint8_t>(static_cast<std::size_t>(limits.max_width) * static_cast<std::size_t>(limits.max_height));
-  Blobs* blobs = Blobs::create(arena, limits);
+  auto blurred =
+      arena.take_raw<uint8_t>(static_cast<std::size_t>(limits.max_width) * static_cast<std::size_t>(limits.max_height));
+  Limits parts = limits;
+  parts.max_blobs *= kPartsPerBlob;
+  Blobs* blobs = Blobs::create(arena, parts);
   if (self.empty() || blobs == nullptr) return nullptr;
   for (int i = 0; i < 7; ++i) self[0].words_[i] = masks[i];
   self[0].blurred_ = blurred;
@@ -130,7 +138,8 @@ void Refine::paint_seeds(std::span<const Run> runs, int label, const Box& box, c
 
 // out = the largest connected part of `candidates` among those that hold a seed. False when there is none.
 bool Refine::keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out) {
-  dropped_ |= !blobs_->find(candidates, 1);
+  blobs_->find(candidates, 1);
+  runs_dropped_ |= blobs_->runs_dropped(), blobs_dropped_ |= blobs_->blobs_dropped();
   clear_mask(out);
   int best = -1, best_area = 0;
   for (const Run& run : blobs_->runs()) {
@@ -184,7 +193,7 @@ bool Refine::reaches_border(const BitMask& mask) const {
 
 FishMask Refine::fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
                       std::span<const Run> runs, bool remove_shadow) {
-  dropped_ = false;
+  runs_dropped_ = blobs_dropped_ = false;
   FishMask result;
   result.box = blob.box;
   // Room for what the opening and the strong threshold lost: a tail fin, a fin that just opened. Where the fish turns out
@@ -208,8 +217,8 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   result.box = box;
   const int w = box.width(), h = box.height(), words = words_for(w);
   const auto mask = [&](int i) { return BitMask{words_[i].data(), w, h, words}; };
-  const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4), shadow = mask(5),
-                around = mask(6);
+  const BitMask seeds = mask(0), bright = mask(1), dark = mask(2), candidates = mask(3), fish = mask(4),
+                shadow = mask(5), around = mask(6);
   const LumaView ground = part_of(background, box);
   LumaView here = part_of(luma, box);
   if (noise_sigma > kNoisy) {

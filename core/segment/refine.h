@@ -19,9 +19,9 @@
 namespace nt {
 
 struct FishMask {
-  Box box;           // in the frame; x0 is a multiple of 64, so its words are words of the frame's masks
-  BitMask mask;      // box coordinates
-  BitMask around;    // the fish and what hangs together with it (its shadow), grown: not to be learned as background
+  Box box;         // in the frame; x0 is a multiple of 64, so its words are words of the frame's masks
+  BitMask mask;    // box coordinates
+  BitMask around;  // the fish and what hangs together with it (its shadow), grown: not to be learned as background
   bool shadow_removed = false;
 };
 
@@ -31,7 +31,8 @@ class Refine {
   // `blob` and `runs` are of the opened mask; `label` is the blob's. `remove_shadow`: the scene can have shadows.
   FishMask fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
                 std::span<const Run> runs, bool remove_shadow);
-  bool dropped() const { return dropped_; }  // runs or blobs did not fit
+  bool runs_dropped() const { return runs_dropped_; }    // more than Limits::max_runs in the box
+  bool blobs_dropped() const { return blobs_dropped_; }  // more than kPartsPerBlob x Limits::max_blobs
 
  private:
   FishMask fish_in(const Box& box, LumaView luma, LumaView background, float noise_sigma, int label,
@@ -47,7 +48,7 @@ class Refine {
   std::span<uint64_t> words_[7];
   std::span<uint8_t> blurred_;
   Blobs* blobs_ = nullptr;  // of the weak mask in the box
-  bool dropped_ = false;
+  bool runs_dropped_ = false, blobs_dropped_ = false;
 };
 
 }  // namespace nt

@@ -23,7 +23,8 @@ OtsuSplit otsu(const std::array<int, 256>& histogram) {
     if (n1 == 0) break;
     const double m0 = static_cast<double>(s0) / static_cast<double>(n0);
     const double m1 = static_cast<double>(sum - s0) / static_cast<double>(n1);
-    const double w = static_cast<double>(n0) * static_cast<double>(n1) / (static_cast<double>(total) * static_cast<double>(total));
+    const double w =
+        static_cast<double>(n0) * static_cast<double>(n1) / (static_cast<double>(total) * static_cast<double>(total));
     const double between = w * (m1 - m0) * (m1 - m0);
     if (between > best_between) {
       best_between = between;

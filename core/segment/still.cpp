@@ -68,7 +68,8 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
     noise_.restart();  // the learned pictures may lie seconds apart; consecutive frames give the noise
   }
   noise_.add(luma);
-  const int radius = settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
+  const int radius =
+      settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
   mask_of_difference(luma, estimate(), radius, 0, foreground);
   follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
                     {plane_.data(), width_, height_, stride_});

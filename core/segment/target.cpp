@@ -6,6 +6,12 @@
 namespace nt {
 namespace {
 
+// A finger or a mouse misses a small fish by about this much.
+constexpr float kClickReach_px = 30.0f;
+// Matching: a part this large of the fish is enough within its predicted box; elsewhere a blob must lie within kNear lengths
+// and have kLeastPart of the area, and its cost (lengths off, plus kAreaCost per factor e of area) must stay under kMostCost.
+constexpr float kPartInBox = 0.1f, kNear = 0.6f, kLeastPart = 0.15f, kAreaCost = 0.35f, kMostCost = 1.6f;
+
 float length_of(const Blob& blob) { return 4.0f * blob.major_px + 1.0f; }
 
 bool inside(const Box& box, Vec2 p, float margin) {
@@ -84,53 +90,61 @@ int Target::match(std::span<const Blob> blobs) const {
     if (!blob.ghost && inside(box_, blob.centroid - moved, 0.1f * length_ * patience) && blob.area_px > largest)
       largest = blob.area_px, best = i;
   }
-  if (static_cast<float>(largest) > 0.1f * area_) return best;
-  float best_cost = 1.6f;
+  if (static_cast<float>(largest) > kPartInBox * area_) return best;
+  float best_cost = kMostCost;
   for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
     const float d = length(blob.centroid - predicted) / length_;
     const float ratio = static_cast<float>(blob.area_px) / det::max(area_, 1.0f);
-    if (blob.ghost || d > 0.6f * patience || ratio < 0.15f) continue;
-    const float cost = d / patience + 0.35f * det::abs(det::log(ratio));
+    if (blob.ghost || d > kNear * patience || ratio < kLeastPart) continue;
+    const float cost = d / patience + kAreaCost * det::abs(det::log(ratio));
     if (cost < best_cost) best_cost = cost, best = i;
   }
-  return best_cost < 1.6f ? best : -1;
+  return best_cost < kMostCost ? best : -1;
 }
 
+// The blob that the user asks for; -1 when nobody asks or nothing is there yet. A click waits until a blob is near it.
 int Target::requested(std::span<const Blob> blobs) {
-  const Request request = request_;
-  if (request == Request::none || blobs.empty()) return -1;
-  request_ = Request::none;
   int best = -1;
-  if (request == Request::at) {
+  if (request_ == Request::at) {
     float best_d = 1e9f;
     for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
       const Blob& blob = blobs[static_cast<std::size_t>(i)];
-      const float d = length(blob.centroid - point_) - (inside(blob.box, point_, 4.0f) ? 1e5f : 0.0f);
-      if (d < best_d) best_d = d, best = i;
+      const bool on_it = inside(blob.box, point_, 4.0f);
+      const float d = length(blob.centroid - point_);
+      if (blob.ghost || (!on_it && d > length_of(blob) + kClickReach_px)) continue;
+      if (d - (on_it ? 1e5f : 0.0f) < best_d) best_d = d - (on_it ? 1e5f : 0.0f), best = i;
     }
-    return best;
+  } else if (request_ == Request::next) {
+    best = next_blob(blobs, has_target_ ? match(blobs) : -1);
   }
-  // next: the blob after the present one in reading order of their centres, round and round.
-  const auto after = [](Vec2 a, Vec2 b) { return a.x > b.x || (a.x == b.x && a.y > b.y); };
-  int first = 0;
+  if (best >= 0) request_ = Request::none;
+  return best;
+}
+
+// The blob after `present` in reading order of their centres (rows, then columns), round and round; the first when there
+// is no present one.
+int Target::next_blob(std::span<const Blob> blobs, int present) const {
+  const auto centre = [&](int i) { return blobs[static_cast<std::size_t>(i)].centroid; };
+  const auto before = [](Vec2 a, Vec2 b) { return a.y < b.y || (a.y == b.y && a.x < b.x); };
+  int first = -1, next = -1;
   for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
-    const Vec2 c = blobs[static_cast<std::size_t>(i)].centroid;
-    if (after(blobs[static_cast<std::size_t>(first)].centroid, c)) first = i;
-    if (!after(c, centroid_ + Vec2{0.5f * length_, 0})) continue;
-    if (best < 0 || after(blobs[static_cast<std::size_t>(best)].centroid, c)) best = i;
+    if (i == present || blobs[static_cast<std::size_t>(i)].ghost) continue;
+    if (first < 0 || before(centre(i), centre(first))) first = i;
+    if (present < 0 || !before(centre(present), centre(i))) continue;
+    if (next < 0 || before(centre(i), centre(next))) next = i;
   }
-  return best >= 0 ? best : first;
+  return next >= 0 ? next : first;
 }
 
 void Target::take(const Blob& blob) {
   has_target_ = changed_ = true;
-  lost_frames_ = merged_frames_ = 0;
+  lost_frames_ = odd_frames_ = 0;
   centroid_ = blob.centroid;
   velocity_ = {};
   box_ = blob.box;
   area_ = static_cast<float>(blob.area_px);
-  area_known_ = false;
+  whole_known_ = false;
   length_ = length_of(blob);
 }
 
@@ -150,18 +164,21 @@ void Target::move_to(Vec2 centre) {
   centroid_ = centre;
 }
 
-bool Target::observe(const Box& box, Vec2 centre, float area_px) {
+bool Target::observe(const Box& box, Vec2 centre, float area_px, float axis_len_px) {
   constexpr float kMerged = 1.6f;  // fins that open add at most a third
-  if (!area_known_) area_ = area_px, area_known_ = true;
-  if (area_px > kMerged * area_ && ++merged_frames_ <= lost_after_) {
+  constexpr float kShrunk = 0.6f;  // an axis drawn across a ring, not along the fish
+  if (!whole_known_) area_ = area_px, axis_len_ = axis_len_px, whole_known_ = true;
+  const bool odd = area_px > kMerged * area_ || axis_len_px < kShrunk * axis_len_;
+  if (odd && ++odd_frames_ <= lost_after_) {
     centroid_ = last_centroid_ + last_velocity_ * static_cast<float>(last_gap_);  // swim on through the crossing
     velocity_ = last_velocity_;
     return false;
   }
-  merged_frames_ = 0;
+  odd_frames_ = 0;
   box_ = box;
   move_to(centre);
   area_ += (area_px - area_) * 0.3f;
+  axis_len_ += (axis_len_px - axis_len_) * 0.3f;
   length_ += (static_cast<float>(max_int(box.width(), box.height())) - length_) * 0.3f;
   return true;
 }

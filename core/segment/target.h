@@ -35,8 +35,9 @@ class Target {
 
   TargetChoice update(std::span<const Blob> blobs);
   // What the refined outline says of the fish in this frame; its blob may have been only a part of it, or have held its
-  // shadow. False when the outline suddenly encloses much more: the fish has merged with something.
-  bool observe(const Box& box, Vec2 centre, float area_px);
+  // shadow. False when the outline suddenly encloses much more or its axis is much shorter: the fish has merged with
+  // something, or closed into a ring.
+  bool observe(const Box& box, Vec2 centre, float area_px, float axis_len_px);
 
   // True in the frame in which another fish became the target: beliefs about the last one are void.
   bool changed() const { return changed_; }
@@ -63,6 +64,7 @@ class Target {
   int best_candidate(std::span<const Blob> blobs) const;
   int match(std::span<const Blob> blobs) const;
   int requested(std::span<const Blob> blobs);
+  int next_blob(std::span<const Blob> blobs, int present) const;
   void take(const Blob& blob);
   void move_to(Vec2 centre);
   TargetChoice accept(std::span<const Blob> blobs, int index);
@@ -76,15 +78,16 @@ class Target {
   bool chosen_by_user_ = false;
   int frames_since_start_ = 0;
   int lost_frames_ = 0;
-  int merged_frames_ = 0;
+  int odd_frames_ = 0;
   int lost_after_ = 30;
   Vec2 centroid_, velocity_;
   Vec2 last_centroid_, last_velocity_;  // before this frame
   int last_gap_ = 1;                    // frames between last_centroid_ and this frame
   Box box_;                             // of the whole fish, as last observed
   float area_ = 0;
-  bool area_known_ = false;             // observed whole, not only as a blob
-  float length_ = 0;                    // of the fish, pixels, roughly
+  float axis_len_ = 0;
+  bool whole_known_ = false;  // observed whole, not only as a blob
+  float length_ = 0;          // of the fish, pixels, roughly
 };
 
 }  // namespace nt

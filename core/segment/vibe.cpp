@@ -127,7 +127,8 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
   noise_.add(luma);
   if (!started_) {
     initialise(luma);
-    for (int y = 0; y < height_; ++y) std::memset(foreground.row(y), 0, static_cast<std::size_t>(foreground.words_per_row) * 8);
+    for (int y = 0; y < height_; ++y)
+      std::memset(foreground.row(y), 0, static_cast<std::size_t>(foreground.words_per_row) * 8);
     return false;
   }
   uint8_t tail[64];

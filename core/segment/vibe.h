@@ -42,7 +42,9 @@ class Vibe final : public Background {
  private:
   void initialise(LumaView luma);
   void update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep);
-  uint8_t* sample_row(int k, int y) { return samples_.data() + (static_cast<std::ptrdiff_t>(k) * height_ + y) * stride_; }
+  uint8_t* sample_row(int k, int y) {
+    return samples_.data() + (static_cast<std::ptrdiff_t>(k) * height_ + y) * stride_;
+  }
 
   BackgroundSettings settings_;
   int width_ = 0, height_ = 0;

@@ -12,10 +12,25 @@
 
 namespace {
 
-constexpr const char* kTankFrames = "cc2e7b030ce71d83";
-constexpr const char* kIntegerStages = "d4af0bcff738c52a";
-constexpr const char* kPoses = "98fe0448f337891f";
-constexpr const char* kVertices = "11965d902cfd30c1";
+struct Golden {
+  const char* scene;
+  nt::BackgroundKind background;
+  int frames;
+  const char *tank_frames, *integer_stages, *poses, *vertices;
+};
+
+constexpr Golden kGolden[] = {
+    {"calm", nt::BackgroundKind::vibe, 300, "cc2e7b030ce71d83", "59fcd9594622822e", "851cc9ddc5aa203b",
+     "2ed29d1759714ee7"},
+    {"shadow", nt::BackgroundKind::vibe, 120, "b4391060a1d89061", "51331b773dd440b5", "e1bbd65e1b596808",
+     "ecaae93d16706677"},
+    {"night", nt::BackgroundKind::vibe, 120, "31753c3abef4667d", "ec1c8a9b9be4f12b", "f24c7630f8e40ed4",
+     "2adfb276454849e8"},
+    {"calm", nt::BackgroundKind::still, 120, "4b5cb26b8a3874dc", "4e330cc078839fb6", "3580814976f4ae2f",
+     "8712010e44978de4"},
+    {"calm", nt::BackgroundKind::backlit, 120, "4b5cb26b8a3874dc", "8ef6eb093eefaea6", "175191e700f574f6",
+     "6774d41723bd1b5d"},
+};
 
 uint64_t hash_float(float v, uint64_t seed) {
   uint32_t bits;
@@ -45,12 +60,19 @@ std::string hex(uint64_t v) {
   return text;
 }
 
+class TankRunGolden : public testing::TestWithParam<Golden> {};
+
 }  // namespace
 
-TEST(Golden, TankRun) {
-  nt::test::TankRun run({.scene = "calm", .seed = 1});
+TEST_P(TankRunGolden, SameBits) {
+  const Golden& golden = GetParam();
+  nt::CaptureSettings settings;
+  settings.background.kind = golden.background;
+  settings.fingerprint = true;
+  const nt::TankSettings tank{.scene = golden.scene, .seed = 1};
+  nt::test::TankRun run(tank, nt::test::limits_for(tank), settings);
   uint64_t frames = nt::kHashSeed, integers = nt::kHashSeed, poses = nt::kHashSeed, vertices = nt::kHashSeed;
-  for (int n = 0; n < 300; ++n) {
+  for (int n = 0; n < golden.frames; ++n) {
     run.film();
     run.step();
     const nt::LumaView luma = run.frame().luma;
@@ -60,9 +82,12 @@ TEST(Golden, TankRun) {
     poses = hash_pose(run.capture().pose(), poses);
     if (run.capture().pose().ok()) vertices = hash_points(run.retarget().vertices(), vertices);
   }
-  EXPECT_EQ(hex(frames), kTankFrames);
-  EXPECT_EQ(hex(integers), kIntegerStages);
-  EXPECT_EQ(hex(poses), kPoses);
-  EXPECT_EQ(hex(vertices), kVertices);
-  EXPECT_GT(run.poses(), 200);
+  EXPECT_EQ(hex(frames), golden.tank_frames);
+  EXPECT_EQ(hex(integers), golden.integer_stages);
+  EXPECT_EQ(hex(poses), golden.poses);
+  EXPECT_EQ(hex(vertices), golden.vertices);
 }
+
+INSTANTIATE_TEST_SUITE_P(Golden, TankRunGolden, testing::ValuesIn(kGolden), [](const auto& test) {
+  return std::string(test.param.scene) + "_" + std::to_string(static_cast<int>(test.param.background));
+});

@@ -21,9 +21,9 @@ inline Limits limits_for(const TankSettings& tank) {
 class TankRun {
  public:
   explicit TankRun(const TankSettings& settings) : TankRun(settings, limits_for(settings)) {}
-  TankRun(const TankSettings& settings, const Limits& limits)
-      : settings_(settings), tank_(settings), capture_block_(Capture::bytes_needed(limits, {})) {
-    capture_ = must(Capture::create(capture_block_.span(), limits, {}, settings.width, settings.height));
+  TankRun(const TankSettings& settings, const Limits& limits, const CaptureSettings& capture = {})
+      : settings_(settings), tank_(settings), capture_block_(Capture::bytes_needed(limits, capture)) {
+    capture_ = must(Capture::create(capture_block_.span(), limits, capture, settings.width, settings.height));
     character_ = must(open_character(drawing_.bytes(), Limits{}));
     Arena measure;
     (void)must(Retarget::create(measure, character_, {}));

@@ -34,7 +34,9 @@ class TempDir {
   std::filesystem::path path_;
 };
 
-inline void write_text(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+inline void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 // What the user would be told; empty when nothing was thrown.
 inline std::string user_error(const std::function<void()>& action) {
@@ -52,7 +54,8 @@ inline std::vector<uint8_t> ramp_frame(int width, int height, int n) {
   rgb.reserve(static_cast<std::size_t>(width * height * 3));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const bool block = (x + width - (4 * n) % width) % width < width / 8 && y >= height / 2 && y < height / 2 + height / 8;
+      const bool block =
+          (x + width - (4 * n) % width) % width < width / 8 && y >= height / 2 && y < height / 2 + height / 8;
       const auto grey = static_cast<uint8_t>(255 * x / (width - 1));
       rgb.insert(rgb.end(), {block ? uint8_t{255} : grey, block ? uint8_t{0} : grey, block ? uint8_t{0} : grey});
     }

@@ -23,15 +23,17 @@ TEST_P(AccuracyTest, KeepsItsPromise) {
     sum.add(nt::test::measure_accuracy(run));
   }
   ASSERT_GT(sum.visible, 400);
-  EXPECT_GE(sum.pose_share(), 0.95);
+  // A quarter above what is reached (docs/PERFORMANCE.md); short runs scatter a little.
+  EXPECT_GE(sum.pose_share(), 0.995);
   EXPECT_EQ(sum.wrong_end, 0);
-  EXPECT_LE(quantile(sum.head, 0.5), 1.5);
-  EXPECT_LE(quantile(sum.tail, 0.5), 4.0);
-  EXPECT_LE(quantile(sum.midline, 0.5), 1.0);
-  EXPECT_LE(quantile(sum.fin_tip, 0.5), 4.0);
-  EXPECT_LE(quantile(sum.direction, 0.5), 2.0);
-  EXPECT_GE(sum.fin_recall(), 0.8);
-  EXPECT_GE(sum.fin_precision(), 0.8);
+  EXPECT_EQ(sum.false_poses, 0);
+  EXPECT_LE(quantile(sum.head, 0.5), 0.45);
+  EXPECT_LE(quantile(sum.tail, 0.5), 0.45);
+  EXPECT_LE(quantile(sum.midline, 0.5), 0.13);
+  EXPECT_LE(quantile(sum.fin_tip, 0.5), 0.48);
+  EXPECT_LE(quantile(sum.direction, 0.5), 0.10);
+  EXPECT_GE(sum.fin_recall(), 0.97);
+  EXPECT_GE(sum.fin_precision(), 0.99);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest, testing::Values("calm", "turns", "hover", "forked", "round"),

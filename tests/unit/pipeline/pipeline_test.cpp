@@ -161,7 +161,7 @@ TEST(Pipeline, AFrameOfAnotherSizeIsSaidAndTheNextGoesOn) {
   ASSERT_EQ(film.see(fish_at(100, 90)).status, PoseStatus::ok);
   for (const auto& [w, h] : {std::pair{kWidth - 1, kHeight}, std::pair{kWidth, kHeight + 1}, std::pair{1, 1}}) {
     const StepReport report = film.see(Picture(w, h, 170));
-    EXPECT_NE(report.flags & kFrameTooLarge, 0u);
+    EXPECT_NE(report.flags & kFrameSize, 0u);
     EXPECT_FALSE(film->pose().ok());
     EXPECT_TRUE(film->blobs().empty());
   }

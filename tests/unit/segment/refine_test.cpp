@@ -35,7 +35,7 @@ class Refined {
     return refine_->fish(seen.luma(), ground.luma(), sigma, blobs_->blobs()[static_cast<std::size_t>(best)], best,
                          blobs_->runs(), shadow);
   }
-  bool dropped() { return refine_->dropped(); }
+  bool dropped() { return refine_->runs_dropped(); }
 
  private:
   int area(int i) { return blobs_->blobs()[static_cast<std::size_t>(i)].area_px; }

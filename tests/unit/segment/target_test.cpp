@@ -79,7 +79,7 @@ TEST(Target, KeepsItsFishWhileAnotherPassesNearby) {
     const Scene scene{fish_at(420 - 4.0f * static_cast<float>(n), 130), fish_at(x, 100)};
     const TargetChoice choice = target.update(scene);
     ASSERT_EQ(choice.blob, 1) << n;
-    (void)target.observe(scene[1].box, scene[1].centroid, static_cast<float>(scene[1].area_px));
+    (void)target.observe(scene[1].box, scene[1].centroid, static_cast<float>(scene[1].area_px), 100.0f);
   }
   EXPECT_NEAR(target.velocity().x, 4, 0.1f);
 }
@@ -159,16 +159,18 @@ TEST(Target, AnOutlineThatSuddenlyEnclosesMuchMoreIsAMergedOne) {
   const Scene scene{fish_at(100, 100)};
   for (int n = 0; n < 5; ++n) {
     (void)target.update(scene);
-    EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1250));
+    EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1250, 100.0f));
   }
   (void)target.update(scene);
-  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1600)) << "fins that opened";
+  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1600, 100.0f)) << "fins that opened";
   for (int n = 0; n < 4; ++n) {
     (void)target.update(scene);
-    EXPECT_FALSE(target.observe(scene[0].box, scene[0].centroid, 2800));
+    EXPECT_FALSE(target.observe(scene[0].box, scene[0].centroid, 2800, 100.0f));
   }
   (void)target.update(scene);
-  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 2800)) << "it stays so: this is the fish now";
+  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 2800, 100.0f)) << "it stays so: this is the fish now";
+  (void)target.update(scene);
+  EXPECT_FALSE(target.observe(scene[0].box, scene[0].centroid, 2800, 50.0f)) << "half the axis: closed into a ring";
 }
 
 }  // namespace

@@ -108,8 +108,8 @@ TEST(LimitsOfSize, AFrameOfAnotherSizeIsFlaggedAndNotProcessed) {
   tank.film();
   nt::Frame frame = tank.frame();
   frame.luma.width = kTank.width + 1;
-  EXPECT_NE(tank.capture().step(frame).flags & nt::kFrameTooLarge, 0u);
-  EXPECT_NE(std::strstr(nt::limit_to_raise(nt::kFrameTooLarge), "max_width"), nullptr);
+  EXPECT_NE(tank.capture().step(frame).flags & nt::kFrameSize, 0u);
+  EXPECT_NE(std::strstr(nt::limit_to_raise(nt::kFrameSize), "max_width"), nullptr);
 }
 
 TEST(LimitsOfSize, OneByteLessThanNeededIsRefused) {

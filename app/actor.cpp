@@ -56,7 +56,9 @@ void Actor::see(Session& session) {
     retarget_->start(init_len_);
   }
   // After a gap the drawing appears where the fish is: it does not sweep across in one frame.
-  previous_ = anew || missed_ > 0 ? capture.motion() : current_;
+  const bool gap = anew || missed_ > 0;
+  previous_ = gap ? capture.motion() : current_;
+  after_gap_ = after_gap_ || gap;
   current_ = capture.motion();
   missed_ = 0;
 }
@@ -66,7 +68,8 @@ void Actor::pose(float t, float dt_s, const Pane& pane) {
   Placement placement;
   placement.zoom = init_len_ / retarget_->lengths().body_len * pane.scale;
   placement.offset = pane.to_scene({0, 0});
-  retarget_->pose(t < 1 ? in_between(previous_, current_, t) : current_, dt_s, placement);
+  retarget_->pose(t < 1 ? in_between(previous_, current_, t) : current_, after_gap_ ? 0 : dt_s, placement);
+  after_gap_ = false;
   posed_ = true;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "app/nearest_name.h"
@@ -44,6 +45,7 @@ void set_sim_key(CameraSpec& spec, const std::string& key, const std::string& va
 
 CameraSpec parse_sim(const std::string& keys) {
   CameraSpec spec;
+  std::set<std::string> given;
   std::size_t at = 0;
   while (at < keys.size()) {
     const std::size_t comma = std::min(keys.find(',', at), keys.size());
@@ -52,7 +54,9 @@ CameraSpec parse_sim(const std::string& keys) {
     if (equals == std::string::npos) {
       throw UserError("--camera sim: '" + pair + "' is no KEY=VALUE (keys: " + joined(kSimKeys) + ")", 2);
     }
-    set_sim_key(spec, pair.substr(0, equals), pair.substr(equals + 1));
+    const std::string key = pair.substr(0, equals);
+    set_sim_key(spec, key, pair.substr(equals + 1));
+    if (!given.insert(key).second) throw UserError("--camera sim: '" + key + "' is given twice; give it once", 2);
     at = comma + 1;
   }
   return spec;
@@ -70,7 +74,8 @@ CameraSpec file_spec(const std::string& path) {
 CameraSpec parse_camera_spec(const std::string& text) {
   if (text == "sim") return {};
   if (text.starts_with("sim:")) return parse_sim(text.substr(4));
-  if (text.starts_with("file:") && text.size() > 5) return file_spec(text.substr(5));
+  if (text == "file:") throw UserError("--camera: the path is missing after 'file:'; give file:PATH", 2);
+  if (text.starts_with("file:")) return file_spec(text.substr(5));
   std::error_code ignored;
   if (std::filesystem::exists(text, ignored)) return file_spec(text);
   const std::string kind = text.substr(0, text.find(':'));
@@ -81,16 +86,11 @@ CameraSpec parse_camera_spec(const std::string& text) {
 }
 
 std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps) {
-  if (spec.kind == CameraSpec::Kind::file) {
-    const Size size = work.value_or(kDefaultWork);
-    return open_file_camera(spec.path, size.width, size.height, fps);
-  }
-  if (work && (work->width < spec.tank.width || work->height < spec.tank.height)) {
-    throw UserError("--work-size: the tank is made at any size; use --camera sim:size=WxH instead", 2);
-  }
+  const Size size = work.value_or(kDefaultWork);
+  if (spec.kind == CameraSpec::Kind::file) return open_file_camera(spec.path, size.width, size.height, fps);
   TankSettings tank = spec.tank;
   if (fps > 0) tank.fps = fps;
-  return open_sim_camera(tank, spec.frames);
+  return open_sim_camera(tank, spec.frames, size.width, size.height);
 }
 
 }  // namespace nt

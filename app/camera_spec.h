@@ -28,7 +28,7 @@ CameraSpec parse_camera_spec(const std::string& text);
 
 inline constexpr Size kDefaultWork{960, 544};
 
-// `work` is the largest frame handed out; the tank is made at its own size, so asking it for a smaller one is an error.
+// `work` is the largest frame handed out: a larger file or tank is shrunk to fit, a smaller one is left as it is.
 // `fps` above 0 overrides the source's frame rate.
 std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps);
 

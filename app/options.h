@@ -31,7 +31,7 @@ SelectOption parse_select(const std::string& text);  // auto | X,Y
 
 struct CaptureOptions {
   CameraSpec camera;
-  std::optional<Size> work;  // unset: 960x544, and the tank at its own size
+  std::optional<Size> work;  // unset: 960x544
   double fps = 0;            // 0: the source's own
   int64_t frames = 0;        // 0: all
   BackgroundOption background;

@@ -57,7 +57,18 @@ Session::Session(const CaptureOptions& options)
   const BackgroundKind kind = choose_model(options);
   create_capture(options, kind);
   learn(options, kind);
-  if (!options.select.automatic) capture_->select_at(to_working(options.select.at, scale()));
+  if (!options.select.automatic) select(options.select.at);
+}
+
+void Session::select(Vec2 at) {
+  const CameraInfo& picture = info();
+  if (at.x > static_cast<float>(picture.source_width - 1) || at.y > static_cast<float>(picture.source_height - 1)) {
+    throw UserError("--select: there is no such pixel; " + picture.name + " is " + std::to_string(picture.source_width) +
+                        "x" + std::to_string(picture.source_height) + ", so X is at most " +
+                        std::to_string(picture.source_width - 1) + " and Y " + std::to_string(picture.source_height - 1),
+                    2);
+  }
+  capture_->select_at(to_working(at, scale()));
 }
 
 BackgroundKind Session::choose_model(const CaptureOptions& options) {

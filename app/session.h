@@ -39,6 +39,7 @@ class Session {
 
  private:
   BackgroundKind choose_model(const CaptureOptions& options);
+  void select(Vec2 at);  // of the source picture; throws UserError outside of it
   void create_capture(const CaptureOptions& options, BackgroundKind kind);
   void learn(const CaptureOptions& options, BackgroundKind kind);
   void count_gap(const Frame& frame);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A text file, or standard output for "-", whose every write is checked.
 //
-// Rows go in whole. When the disk is full the file keeps its complete rows, and UserError says so in one line.
+// Rows go in whole. When the disk is full the file keeps its complete rows, and UserError says so in one line. Where
+// something else ends the program early the destructor still writes the rows that wait.
 // A reader of standard output that stops early (`neontetra bench | head -1`) is no error: the rest is dropped.
 #pragma once
 #include <string>
@@ -11,7 +12,8 @@ namespace nt {
 
 class TextFile {
  public:
-  explicit TextFile(const std::string& path);  // throws UserError when it cannot be created
+  enum class Kind { rows, whole };  // rows: a part of it is of use, so a failure says that it was kept
+  explicit TextFile(const std::string& path, Kind kind = Kind::rows);  // throws UserError when it cannot be created
   ~TextFile();
   TextFile(const TextFile&) = delete;
   TextFile& operator=(const TextFile&) = delete;
@@ -21,12 +23,14 @@ class TextFile {
 
  private:
   void flush();
+  void take_back_cut_row(std::size_t done);
   [[noreturn]] void fail(int error);
 
   std::string path_;
   std::string waiting_;
   int file_ = -1;
   bool is_stdout_ = false;
+  bool keeps_rows_ = false;  // rows, in a regular file: not a pipe or a device
 };
 
 // Writes all of `text` to a file or, for "-", standard output.

@@ -26,6 +26,7 @@ struct Options {
 CaptureOptions tank_options(const Options& options) {
   CaptureOptions capture;
   capture.camera = parse_camera_spec("sim:size=" + options.size);
+  capture.work = parse_size("--work-size", options.size);  // timed as it is made, not shrunk
   capture.frames = options.frames;
   capture.background = parse_background(options.background);
   return capture;
@@ -87,7 +88,7 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("N")
       ->check(CLI::Range(2, 1000000));
   command->add_option("--work-size", options->size, "frame size (default 960x544)")->type_name("WxH");
-  command->add_option("--background", options->background, "vibe, still or backlit (default vibe)")->type_name("MODEL");
+  command->add_option("--background", options->background, "vibe, still[:PICTURE], backlit or auto (default vibe)")->type_name("MODEL");
   command->add_option("--character", options->character, "also time how long it takes to pose this one")
       ->type_name("FILE");
   command->add_flag("--json", options->json, "as JSON");

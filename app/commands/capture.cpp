@@ -41,7 +41,7 @@ void capture(const Options& options) {
   if (!options.csv.empty()) csv.emplace(options.csv, session.scale());
   if (!options.truth.empty()) {
     simulated(session);
-    truth.emplace(options.truth, session.scale());
+    truth.emplace(options.truth, 1.0f);  // the tank knows it in its own pixels: the source's
   }
   const Pane pane = pane_for(session.info().width, session.info().height);
   Film film(options.overlay, options.contact_sheet, pane.width, pane.height, session.info().fps);

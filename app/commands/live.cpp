@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // neontetra live: a window with the camera's overlay beside (or behind) the character that swims like the fish.
 //
-// A file or the tank plays at its own frame rate; frames that come too late are skipped and counted as dropped.
+// A file or the tank plays at its own frame rate; frames that come too late are skipped and counted as dropped. A
+// source that decodes slower than that plays as fast as it can (Pacer), and the window still answers.
 // The character is drawn between the last two video frames, so it follows the fish by one video frame, never more.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "app/cli.h"
 #include "app/export/recording.h"
 #include "app/export/report.h"
+#include "app/pacer.h"
 #include "app/session.h"
 #include "app/ui/colours.h"
 #include "app/ui/overlay.h"
@@ -47,13 +49,14 @@ class Live {
         hud_(kFirstTextPicture + 1),
         display_(
             open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height)),
-        period_ns_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {}
+        pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {}
 
   void run() {
-    next_frame_ns_ = last_draw_ns_ = steady_now_ns();
+    last_draw_ns_ = steady_now_ns();
+    pacer_.start(last_draw_ns_);
     while (!quit_ && !interrupted()) {
       handle_events();
-      if (!paused_ && steady_now_ns() >= next_frame_ns_ && !next_frame()) break;
+      if (!paused_ && pacer_.due(steady_now_ns()) && !next_frame()) break;
       draw();
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
@@ -80,7 +83,7 @@ class Live {
     switch (key) {
       case ' ':
         paused_ = !paused_;
-        next_frame_ns_ = steady_now_ns();
+        pacer_.start(steady_now_ns());
         break;
       case 'b':
         session_.capture().relearn();
@@ -112,11 +115,10 @@ class Live {
 
   bool next_frame() {
     const int64_t now_ns = steady_now_ns();
-    for (; now_ns > next_frame_ns_ + period_ns_; next_frame_ns_ += period_ns_) {
+    for (int skips = pacer_.take(now_ns); skips > 0; --skips) {
       if (!session_.skip()) return false;
     }
     if (!session_.step()) return false;
-    next_frame_ns_ += period_ns_;
     frame_shown_ns_ = now_ns;
     actor_.see(session_);
     overlay_.update(session_, true);
@@ -137,7 +139,7 @@ class Live {
 
   void draw() {
     const int64_t now_ns = steady_now_ns();
-    const auto part = static_cast<float>(now_ns - frame_shown_ns_) / static_cast<float>(period_ns_);
+    const auto part = static_cast<float>(now_ns - frame_shown_ns_) / static_cast<float>(pacer_.period_ns());
     if (!paused_) {
       actor_.pose(std::clamp(part, 0.01f, 1.0f), static_cast<float>(now_ns - last_draw_ns_) * 1e-9f, actor_pane_);
     }
@@ -177,13 +179,13 @@ class Live {
   Overlay overlay_;
   Text hud_;
   std::unique_ptr<Display> display_;
-  int64_t period_ns_;
+  Pacer pacer_;
   std::vector<InputEvent> events_;
   Scene scene_;
   std::unique_ptr<Recording> recording_;
   int recordings_ = 0;
   bool paused_ = false, quit_ = false;
-  int64_t next_frame_ns_ = 0, frame_shown_ns_ = 0, last_draw_ns_ = 0;
+  int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
   int64_t drawn_ = 0;
   int64_t hud_due_ns_ = 0, hud_last_ns_ = 0, hud_frames_ = 0, hud_drawn_ = 0;
 };

@@ -20,7 +20,8 @@ class FileCamera : public Camera {
  public:
   FileCamera(const std::string& path, int work_width, int work_height, double fps_override)
       : name_(std::filesystem::path(path).filename().string()), source_(open_frame_source(path)) {
-    if (!source_->read(decoded_)) throw UserError(path + ": there is no frame in it that can be read; record it again or convert it");
+    if (!source_->read(decoded_))
+      throw UserError(path + ": there is no frame in it that can be read; record it again or convert it");
     check_size(path);
     const WorkSize size = working_size(decoded_.cols, decoded_.rows, work_width, work_height);
     if (size.width < kSmallestSide || size.height < kSmallestSide) {
@@ -46,8 +47,9 @@ class FileCamera : public Camera {
     }
     pending_ = false;
     if (decoded_.cols != info_.source_width || decoded_.rows != info_.source_height) {
-      throw UserError(name_ + ": frame " + std::to_string(source_->index()) + " is " + size_text(decoded_.cols, decoded_.rows) +
-                      " pixels, the first was " + size_text(info_.source_width, info_.source_height) + "; make them all one size");
+      throw UserError(name_ + ": frame " + std::to_string(source_->index()) + " is " +
+                      size_text(decoded_.cols, decoded_.rows) + " pixels, the first was " +
+                      size_text(info_.source_width, info_.source_height) + "; make them all one size");
     }
     convert();
     ++delivered_;
@@ -128,15 +130,16 @@ class FileCamera : public Camera {
 }  // namespace
 
 WorkSize working_size(int source_width, int source_height, int work_width, int work_height) {
-  const double scale = std::min({1.0, static_cast<double>(work_width) / source_width,
-                                 static_cast<double>(work_height) / source_height});
+  const double scale =
+      std::min({1.0, static_cast<double>(work_width) / source_width, static_cast<double>(work_height) / source_height});
   const auto side = [scale](int source, int limit) {
     return std::clamp(static_cast<int>(std::lround(source * scale)), 1, std::max(1, limit));
   };
   return {side(source_width, work_width), side(source_height, work_height)};
 }
 
-std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height, double fps_override) {
+std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height,
+                                         double fps_override) {
   try {
     return std::make_unique<FileCamera>(path, work_width, work_height, fps_override);
   } catch (const cv::Exception&) {

@@ -22,6 +22,7 @@ WorkSize working_size(int source_width, int source_height, int work_width, int w
 
 // fps_override > 0 replaces the file's frame rate (container rates of high-speed clips are often false).
 // Throws UserError, one line: missing, not a video, without frames, too small (under 16x16), too large (over 8192).
-std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height, double fps_override = 0);
+std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height,
+                                         double fps_override = 0);
 
 }  // namespace nt

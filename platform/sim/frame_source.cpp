@@ -25,9 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDefaultFps = 25;     // of pictures, and of files that give no rate: FFmpeg's own default
-constexpr double kMaxFps = 100000;     // above it a container's rate is a time base, not a rate
-constexpr int kMaxFailuresInRow = 256; // a damaged stretch longer than this counts as the end
+constexpr double kDefaultFps = 25;      // of pictures, and of files that give no rate: FFmpeg's own default
+constexpr double kMaxFps = 100000;      // above it a container's rate is a time base, not a rate
+constexpr int kMaxFailuresInRow = 256;  // a damaged stretch longer than this counts as the end
 
 void silence_libraries() {
   static const bool done = [] {
@@ -98,7 +98,9 @@ class VideoSource : public FrameSource {
  private:
   void open() {
     if (!capture_.open(absolute_, cv::CAP_FFMPEG)) {
-      throw UserError(path_ + ": not a video or picture that can be read (another kind of file, or cut short while it was recorded)");
+      throw UserError(
+          path_ +
+          ": not a video or picture that can be read (another kind of file, or cut short while it was recorded)");
     }
     capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
     turns_ = quarter_turns(capture_.get(cv::CAP_PROP_ORIENTATION_META));
@@ -197,7 +199,8 @@ std::vector<std::string> numbered_pictures(const fs::path& path) {
     static const std::regex special(R"([.^$|()\[\]{}*+?\\])");
     return std::regex_replace(text, special, R"(\$&)");
   };
-  const std::string digits = match[2].length() > 0 && match[1].length() > 0 ? "[0-9]{" + match[2].str() + ",}" : "[0-9]+";
+  const std::string digits =
+      match[2].length() > 0 && match[1].length() > 0 ? "[0-9]{" + match[2].str() + ",}" : "[0-9]+";
   const std::regex wanted(literal(match.prefix()) + digits + literal(match.suffix()));
   return pictures_in(path.parent_path(), &wanted);
 }
@@ -214,7 +217,8 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& path) {
   silence_libraries();
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    return open_pictures(pictures_in(path, nullptr), path + ": there is no picture in this folder; give one that holds .png or .jpg frames");
+    return open_pictures(pictures_in(path, nullptr),
+                         path + ": there is no picture in this folder; give one that holds .png or .jpg frames");
   }
   if (!fs::exists(path, error)) {
     const std::string nothing = path + ": no picture matches this pattern; check the path";

@@ -15,7 +15,7 @@ namespace {
 const TankScene& checked_scene(const TankSettings& settings) {
   const TankScene* scene = find_tank_scene(settings.scene);
   if (scene == nullptr) throw std::invalid_argument("tank: there is no scene '" + settings.scene + "'");
-  if (settings.width < 64 || settings.height < 48 || settings.width > 7680 || settings.height > 4320)
+  if (!Tank::size_fits(settings.width, settings.height))
     throw std::invalid_argument("tank: the size must lie between 64x48 and 7680x4320");
   if (!(settings.fps >= 1 && settings.fps <= 1000))
     throw std::invalid_argument("tank: the frame rate must lie between 1 and 1000");

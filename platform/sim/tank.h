@@ -46,8 +46,15 @@ struct TankSettings {
   double fps = 30;
 };
 
+inline constexpr int kTankLeastWidth = 64, kTankLeastHeight = 48;
+inline constexpr int kTankMostWidth = 7680, kTankMostHeight = 4320;
+
 class Tank {
  public:
+  static bool size_fits(int width, int height) {
+    return width >= kTankLeastWidth && height >= kTankLeastHeight && width <= kTankMostWidth &&
+           height <= kTankMostHeight;
+  }
   explicit Tank(const TankSettings& settings);
   ~Tank();
   // Renders frame n = 0, 1, 2, ... in order. The view is valid until the next call.

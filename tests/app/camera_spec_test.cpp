@@ -68,9 +68,24 @@ TEST(CameraSpec, SaysWhatNumbersAreAllowed) {
 
 TEST(CameraSpec, AMissingBareFileIsNoCamera) { EXPECT_EQ(error_of("no/such/clip.avi").exit_code, 3); }
 
-TEST(CameraSpec, TheTankIsNotShrunk) {
-  EXPECT_THROW((void)open_camera(parse_camera_spec("sim:frames=1"), Size{320, 200}, 0), UserError);
-  EXPECT_EQ(open_camera(parse_camera_spec("sim:frames=1"), std::nullopt, 0)->info().width, 960);
+TEST(CameraSpec, AnEmptyPathAndAKeyGivenTwiceAreMistakes) {
+  EXPECT_TRUE(says(error_of("file:"), "path is missing"));
+  EXPECT_TRUE(says(error_of("sim:seed=1,size=640x360,seed=1"), "'seed' is given twice"));
+  EXPECT_EQ(error_of("file:").exit_code, 2);
+  EXPECT_EQ(error_of("sim:seed=1,seed=2").exit_code, 2);
+}
+
+TEST(CameraSpec, ATankLargerThanTheWorkingSizeIsShrunkAsAFileIs) {
+  const auto size_of = [](const char* spec, std::optional<Size> work) {
+    const CameraInfo info = open_camera(parse_camera_spec(spec), work, 0)->info();
+    return std::to_string(info.source_width) + "x" + std::to_string(info.source_height) + " at " +
+           std::to_string(info.width) + "x" + std::to_string(info.height);
+  };
+  EXPECT_EQ(size_of("sim", std::nullopt), "960x544 at 960x544");
+  EXPECT_EQ(size_of("sim:size=1920x1088", std::nullopt), "1920x1088 at 960x544");
+  EXPECT_EQ(size_of("sim:size=640x480", Size{320, 320}), "640x480 at 320x240");
+  EXPECT_EQ(size_of("sim:size=320x240", Size{640, 480}), "320x240 at 320x240");
+  EXPECT_THROW(size_of("sim", Size{8, 8}), UserError);
 }
 
 }  // namespace

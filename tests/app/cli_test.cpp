@@ -64,6 +64,25 @@ TEST(Cli, ValuesThatCannotBe) {
   expect_one_line(neontetra("capture -c " + kCarp + " --truth /dev/null --background vibe"), 2, "sim");
 }
 
+TEST(Cli, PlacesAndSizesOutsideThePicture) {
+  expect_one_line(neontetra("capture -c sim:size=320x240,frames=2 --background vibe --select 320,10"), 2,
+                  "X is at most 319 and Y 239");
+  expect_one_line(neontetra("capture -c sim:size=320x240,frames=2 --background vibe --select 10,240"), 2, "--select");
+  EXPECT_EQ(neontetra("capture -c sim:size=320x240,frames=2 --background vibe --select 319,239").exit_code, 0);
+  expect_one_line(neontetra("capture -c sim:size=33x33"), 2, "use 64x48 to 7680x4320");
+  expect_one_line(neontetra("bench --work-size 9000x9000"), 2, "use 64x48 to 7680x4320");
+}
+
+TEST(Cli, BenchTakesEveryBackgroundOfItsHelp) {
+  const TempDir dir;
+  cv::imwrite(dir / "empty.png", cv::Mat(240, 320, CV_8UC1, cv::Scalar(90)));
+  for (const std::string model : {std::string("vibe"), std::string("still"), "still:" + dir / "empty.png",
+                                  std::string("backlit"), std::string("auto")}) {
+    const Outcome outcome = neontetra("bench --frames 3 --work-size 320x240 --background " + model);
+    EXPECT_EQ(outcome.exit_code, 0) << model << ": " << outcome.err;
+  }
+}
+
 TEST(Cli, VideosThatAreNone) {
   const TempDir dir;
   expect_one_line(neontetra("capture -c " + dir / "none.avi"), 3, "none.avi");
@@ -119,7 +138,9 @@ TEST(Cli, PicturesWithoutAFish) {
 
 TEST(Cli, AFullDiskKeepsCompleteRows) {
   const TempDir dir;
-  expect_one_line(neontetra("capture --background vibe -c sim:frames=80 --csv /dev/full"), 1, "/dev/full");
+  const Outcome device = neontetra("capture --background vibe -c sim:frames=80 --csv /dev/full");
+  expect_one_line(device, 1, "/dev/full: No space left on device");
+  EXPECT_EQ(device.err.find("rows"), std::string::npos) << device.err;  // a device keeps none
   expect_one_line(neontetra("capture --background vibe -c sim:frames=3 --json /dev/full"), 1, "/dev/full");
   expect_one_line(neontetra("bench --frames 3 >/dev/full"), 1, "standard output");
   expect_one_line(neontetra("capture --background vibe -c sim:frames=250 --csv " + dir / "cut.csv", 20), 1, "cut.csv");
@@ -127,6 +148,17 @@ TEST(Cli, AFullDiskKeepsCompleteRows) {
   ASSERT_GT(cut.rows(), 5u);
   for (std::size_t row = 0; row < cut.rows(); ++row) EXPECT_EQ(cut.cells(row), cut.columns());
   EXPECT_EQ(read_text(dir / "cut.csv").back(), '\n');
+}
+
+TEST(Cli, AnErrorElsewhereKeepsTheRowsUpToIt) {
+  const TempDir dir;
+  for (int i = 0; i < 7; ++i) {
+    const int width = i == 6 ? 200 : 320;
+    cv::imwrite(dir / ("frame_" + std::to_string(i) + ".png"), cv::Mat(240, width, CV_8UC1, cv::Scalar(200)));
+  }
+  const std::string pattern = dir / "frame_%d.png";
+  expect_one_line(neontetra("capture --background vibe -c '" + pattern + "' --csv " + dir / "cut.csv"), 1, "200x240");
+  EXPECT_EQ(CsvTable(dir / "cut.csv").rows(), 6u);
 }
 
 TEST(Cli, AFullDiskWhileWritingTheVideo) {

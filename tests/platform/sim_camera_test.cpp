@@ -22,7 +22,8 @@ TankSettings small_tank() {
 
 std::vector<uint8_t> pixels_of(const Frame& frame) {
   std::vector<uint8_t> out;
-  for (int y = 0; y < frame.luma.height; ++y) out.insert(out.end(), frame.luma.row(y), frame.luma.row(y) + frame.luma.width);
+  for (int y = 0; y < frame.luma.height; ++y)
+    out.insert(out.end(), frame.luma.row(y), frame.luma.row(y) + frame.luma.width);
   return out;
 }
 
@@ -93,15 +94,39 @@ TEST(SimCamera, RewindsToTheSameFrames) {
   EXPECT_EQ(pixels_of(*camera->next()), second);
 }
 
+TEST(SimCamera, TheWorkingSizeShrinksTheFrameAndNotTheTruth) {
+  const auto whole = open_sim_camera(small_tank(), 1);
+  const auto half = open_sim_camera(small_tank(), 1, 160, 400);
+  const LumaView a = whole->next()->luma, b = half->next()->luma;
+  ASSERT_EQ(b.width, 160);
+  ASSERT_EQ(b.height, 120);
+  EXPECT_EQ(half->info().source_width, 320);
+  for (int y = 0; y < b.height; ++y) {
+    for (int x = 0; x < b.width; ++x) {
+      const int sum =
+          a.row(2 * y)[2 * x] + a.row(2 * y)[2 * x + 1] + a.row(2 * y + 1)[2 * x] + a.row(2 * y + 1)[2 * x + 1];
+      ASSERT_NEAR(b.row(y)[x], sum / 4.0, 0.5) << x << "," << y;
+    }
+  }
+  const Picture picture = half->picture();
+  EXPECT_EQ(picture.width, 160);
+  EXPECT_EQ(picture.height, 120);
+  EXPECT_EQ(picture.stride, 160 * 3);
+  EXPECT_NE(picture.pixels, nullptr);
+  EXPECT_EQ(half->truth()->pose.centre.x, whole->truth()->pose.centre.x);
+}
+
 TEST(SimCamera, WhatCannotBeIsOneLine) {
   const auto opening = [](void (*change)(TankSettings&)) {
     TankSettings settings = small_tank();
     change(settings);
     return user_error([&] { open_sim_camera(settings, 1); });
   };
-  EXPECT_NE(opening([](TankSettings& s) { s.scene = "desert"; }).find("no scene is called \"desert\"; known: "), std::string::npos);
+  EXPECT_NE(opening([](TankSettings& s) { s.scene = "desert"; }).find("no scene is called \"desert\"; known: "),
+            std::string::npos);
   EXPECT_NE(opening([](TankSettings& s) { s.scene = "desert"; }).find("calm"), std::string::npos);
   EXPECT_NE(opening([](TankSettings& s) { s.width = 1; }).find("size=1x240 cannot be"), std::string::npos);
+  EXPECT_NE(opening([](TankSettings& s) { s.height = 4321; }).find("use 64x48 to 7680x4320"), std::string::npos);
   EXPECT_NE(opening([](TankSettings& s) { s.fps = 0; }).find("fps must be above 0"), std::string::npos);
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Draws the carp: writes carp.svg beside this file; carp.png is made from it once with
-`rsvg-convert carp.svg -o carp.png`. Standard library only. The fish is seen from above, head to the right.
+`rsvg-convert carp.svg -o carp.png` (package librsvg2-bin, needed only to redraw). Standard library only. The fish is seen from above, head to the right.
 Every shape is computed from a width profile along the body's axis, so that it can be redrawn by changing numbers."""
 import math
 import pathlib

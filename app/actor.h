@@ -37,8 +37,8 @@ class Actor {
   AlignedBlock memory_;
   Retarget* retarget_ = nullptr;  // lives in memory_
   Motion previous_, current_;
-  float init_len_ = 0;  // 0: not seen yet
-  int missed_ = 0;      // video frames without a pose since the last one
+  float init_len_ = 0;      // 0: not seen yet
+  int missed_ = 0;          // video frames without a pose since the last one
   bool after_gap_ = false;  // the next pose is taken as it is, unfiltered
   bool posed_ = false;
 };

@@ -63,9 +63,10 @@ Session::Session(const CaptureOptions& options)
 void Session::select(Vec2 at) {
   const CameraInfo& picture = info();
   if (at.x > static_cast<float>(picture.source_width - 1) || at.y > static_cast<float>(picture.source_height - 1)) {
-    throw UserError("--select: there is no such pixel; " + picture.name + " is " + std::to_string(picture.source_width) +
-                        "x" + std::to_string(picture.source_height) + ", so X is at most " +
-                        std::to_string(picture.source_width - 1) + " and Y " + std::to_string(picture.source_height - 1),
+    throw UserError("--select: there is no such pixel; " + picture.name + " is " +
+                        std::to_string(picture.source_width) + "x" + std::to_string(picture.source_height) +
+                        ", so X is at most " + std::to_string(picture.source_width - 1) + " and Y " +
+                        std::to_string(picture.source_height - 1),
                     2);
   }
   capture_->select_at(to_working(at, scale()));

@@ -76,8 +76,8 @@ TEST(Cli, PlacesAndSizesOutsideThePicture) {
 TEST(Cli, BenchTakesEveryBackgroundOfItsHelp) {
   const TempDir dir;
   cv::imwrite(dir / "empty.png", cv::Mat(240, 320, CV_8UC1, cv::Scalar(90)));
-  for (const std::string model : {std::string("vibe"), std::string("still"), "still:" + dir / "empty.png",
-                                  std::string("backlit"), std::string("auto")}) {
+  for (const std::string& model : {std::string("vibe"), std::string("still"), "still:" + dir / "empty.png",
+                                   std::string("backlit"), std::string("auto")}) {
     const Outcome outcome = neontetra("bench --frames 3 --work-size 320x240 --background " + model);
     EXPECT_EQ(outcome.exit_code, 0) << model << ": " << outcome.err;
   }
@@ -157,7 +157,8 @@ TEST(Cli, AnErrorElsewhereKeepsTheRowsUpToIt) {
     cv::imwrite(dir / ("frame_" + std::to_string(i) + ".png"), cv::Mat(240, width, CV_8UC1, cv::Scalar(200)));
   }
   const std::string pattern = dir / "frame_%d.png";
-  expect_one_line(neontetra("capture --background vibe -c '" + pattern + "' --csv " + dir / "cut.csv"), 1, "200x240");
+  expect_one_line(neontetra("capture --background vibe -c 'file:" + pattern + "' --csv " + dir / "cut.csv"), 1,
+                  "200x240");
   EXPECT_EQ(CsvTable(dir / "cut.csv").rows(), 6u);
 }
 

@@ -15,9 +15,9 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   add_compile_options(-march=armv8-a+crypto)
 endif()
 if(NEONTETRA_DETERMINISTIC)
-  # Highway's emulated 128-bit target: plain C++ instead of vector instructions. The golden tests then show that results
-  # depend neither on the instruction set nor on the width of its lanes.
-  add_compile_definitions(HWY_COMPILE_ONLY_EMU128)
+  # Highway's scalar target: one lane, no vector instructions. The golden tests then show that results depend neither on
+  # the instruction set nor on the number of lanes.
+  add_compile_definitions(HWY_COMPILE_ONLY_SCALAR)
 endif()
 if(NEONTETRA_SANITIZE STREQUAL "address")
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)

@@ -13,7 +13,7 @@ HWY_INLINE uint64_t excess_word(const uint8_t* a, const uint8_t* b, int threshol
   uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto excess = hn::SaturatedSub(hn::SaturatedSub(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), limit);
-    hn::StoreMaskBits(d, hn::Eq(excess, hn::Zero(d)), reinterpret_cast<uint8_t*>(&word) + i / 8);
+    store_bits(d, hn::Eq(excess, hn::Zero(d)), i, word);
   }
   return ~word;
 }

@@ -14,8 +14,6 @@ namespace nt {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using ByteLanes = hn::CappedTag<uint8_t, 64>;
-static_assert(HWY_TARGET != HWY_SCALAR,
-              "mask bits are stored eight at a time; build for a 128-bit target (EMU128 will do)");
 
 // |a - b| for unsigned bytes.
 template <class V>
@@ -40,6 +38,14 @@ HWY_INLINE void for_segments(const uint8_t* row, int width, uint8_t* tail, F&& f
 // The bits of the word at `x` that lie inside the row.
 inline uint64_t valid_bits(int x, int width) {
   return x + 64 <= width ? ~uint64_t{0} : (uint64_t{1} << (width - x)) - 1;
+}
+
+// Sets bits i .. i + Lanes of a mask word, clear before, to a comparison's results. Whatever the number of lanes, one too.
+template <class M>
+HWY_INLINE void store_bits(ByteLanes d, M mask, std::size_t i, uint64_t& word) {
+  uint64_t bits = 0;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<uint8_t*>(&bits));
+  word |= bits << i;
 }
 
 // Lanes of 255 where bits i .. i + Lanes of a mask word are set, else 0.

@@ -34,7 +34,7 @@ uint64_t classify_segment(const uint8_t* luma, const uint8_t* samples, std::ptrd
       matches = hn::Sub(matches, match(v, k, i));
       lacking = hn::Ne(hn::Min(matches, needed), needed);
     }
-    hn::StoreMaskBits(d, lacking, reinterpret_cast<uint8_t*>(&word) + i / 8);
+    store_bits(d, lacking, i, word);
   }
   return word;
 }

@@ -20,13 +20,13 @@ struct UserError : std::runtime_error {
 };
 
 struct CameraInfo {
-  std::string name;            // for messages: "file:clip.avi", "sim:scene=calm"
-  int source_width = 0;        // pixels of the source video
+  std::string name;      // for messages: "file:clip.avi", "sim:scene=calm"
+  int source_width = 0;  // pixels of the source video
   int source_height = 0;
-  int width = 0;               // pixels of the frames handed out (the working size)
+  int width = 0;  // pixels of the frames handed out (the working size)
   int height = 0;
-  double fps = 0;              // nominal frames a second
-  int64_t frame_count = -1;    // -1 when not known
+  double fps = 0;            // nominal frames a second
+  int64_t frame_count = -1;  // -1 when not known
 };
 
 class Camera {

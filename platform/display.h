@@ -13,8 +13,8 @@ namespace nt {
 
 struct InputEvent {
   enum class Kind : uint8_t { quit, key, click } kind = Kind::quit;
-  int key = 0;   // lower-case ASCII, or 27 for escape
-  Vec2 at;       // click: scene pixels
+  int key = 0;  // lower-case ASCII, or 27 for escape
+  Vec2 at;      // click: scene pixels
 };
 
 class Display {

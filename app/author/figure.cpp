@@ -11,8 +11,8 @@
 namespace nt {
 namespace {
 
-constexpr int kLeastPicture = 16;     // pixels a side; nothing can be cut from less
-constexpr int kOpaque = 128;          // alpha from which a pixel belongs to the figure
+constexpr int kLeastPicture = 16;       // pixels a side; nothing can be cut from less
+constexpr int kOpaque = 128;            // alpha from which a pixel belongs to the figure
 constexpr double kLeastFigure = 0.004;  // share of the picture; less is a speck
 // The mesh reaches this far past the opaque edge, so that the edge's own soft pixels are drawn.
 constexpr int kSoftEdge = 2;
@@ -52,7 +52,8 @@ cv::Mat resized(const cv::Mat& rgba, double scale) {
   rgba.convertTo(premultiplied, CV_32FC4);
   std::vector<cv::Mat> planes;
   cv::split(premultiplied, planes);
-  for (int i = 0; i < 3; ++i) planes[static_cast<std::size_t>(i)] = planes[static_cast<std::size_t>(i)].mul(planes[3], 1.0 / 255);
+  for (int i = 0; i < 3; ++i)
+    planes[static_cast<std::size_t>(i)] = planes[static_cast<std::size_t>(i)].mul(planes[3], 1.0 / 255);
   cv::merge(planes, premultiplied);
   const int how = scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR;
   cv::resize(premultiplied, premultiplied, {}, scale, scale, how);
@@ -124,7 +125,8 @@ void bleed(cv::Mat& rgba) {
   std::vector<cv::Vec4b> colour(alpha.total() + 1);
   for (int y = 0; y < rgba.rows; ++y) {
     for (int x = 0; x < rgba.cols; ++x) {
-      if (see_through.at<uchar>(y, x) == 0) colour[static_cast<std::size_t>(labels.at<int>(y, x))] = rgba.at<cv::Vec4b>(y, x);
+      if (see_through.at<uchar>(y, x) == 0)
+        colour[static_cast<std::size_t>(labels.at<int>(y, x))] = rgba.at<cv::Vec4b>(y, x);
     }
   }
   for (int y = 0; y < rgba.rows; ++y) {
@@ -164,7 +166,8 @@ Figure load_figure(const std::string& path) {
   cv::extractChannel(rgba, alpha, 3);
   figure.from_alpha = has_transparency(alpha);
   std::vector<cv::Point> outline = largest_outline(figure_mask(rgba, figure.from_alpha), figure.figures);
-  const std::string nothing = path + ": no figure found; use a picture with transparency around the figure, or a plain background";
+  const std::string nothing =
+      path + ": no figure found; use a picture with transparency around the figure, or a plain background";
   if (outline.empty()) throw UserError(nothing);
 
   // Only the largest figure stays opaque, in the crop too.

@@ -18,16 +18,17 @@ namespace nt {
 
 struct Figure {
   static constexpr int kMaxSide = 1008;  // with the margin 1,024, a texture that any device takes
-  static constexpr int kMinSide = 512;   // smaller drawings are enlarged, so that outlines and triangles have pixels to go by
+  static constexpr int kMinSide =
+      512;  // smaller drawings are enlarged, so that outlines and triangles have pixels to go by
   static constexpr int kMargin = 8;
 
-  cv::Mat rgba;              // 8UC4; colours continue into the transparent pixels
-  cv::Mat mask;              // 8UC1, 255 = figure
+  cv::Mat rgba;  // 8UC4; colours continue into the transparent pixels
+  cv::Mat mask;  // 8UC1, 255 = figure
   std::vector<Vec2> outline;
-  Vec2 picture_origin;       // where the whole picture's top left corner lies, in the pixels of rgba
-  Vec2 picture_size;         // and how large it is there
+  Vec2 picture_origin;  // where the whole picture's top left corner lies, in the pixels of rgba
+  Vec2 picture_size;    // and how large it is there
   bool from_alpha = false;
-  int figures = 1;           // how many were found
+  int figures = 1;  // how many were found
 };
 
 Figure load_figure(const std::string& path);

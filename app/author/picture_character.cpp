@@ -97,7 +97,8 @@ std::vector<std::string> notes_on(const Figure& figure, const FishPose& pose) {
   std::vector<std::string> notes;
   const PoseConfidence& c = pose.confidence;
   if (!figure.from_alpha) notes.push_back("no transparency: the figure was cut out by its edges; check the picture");
-  if (figure.figures > 1) notes.push_back("several figures: the largest of " + std::to_string(figure.figures) + " was taken");
+  if (figure.figures > 1)
+    notes.push_back("several figures: the largest of " + std::to_string(figure.figures) + " was taken");
   if (!(c.l_fin > 0)) notes.push_back("left fin not seen: this character has none");
   if (!(c.r_fin > 0)) notes.push_back("right fin not seen: this character has none");
   const auto unsure = [&](const char* what, float v) {
@@ -141,7 +142,8 @@ HeadSide parse_head_side(const std::string& text) {
   char rest = 0;
   const bool two = std::sscanf(text.c_str(), "%f,%f%c", &p.x, &p.y, &rest) == 2;
   if (!two || !(p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1)) {
-    throw UserError("head '" + text + "' is not left, right, up, down or X,Y with shares of the picture from 0 to 1", 2);
+    throw UserError("head '" + text + "' is not left, right, up, down or X,Y with shares of the picture from 0 to 1",
+                    2);
   }
   side.fraction = p;
   return side;
@@ -173,12 +175,22 @@ AuthoredCharacter author_picture(const std::string& path, const PictureOptions& 
   character.vertices = vertices;
   character.texcoords = texcoords;
   character.triangles = mesh.triangles;
-  character.texture = {figure.rgba.data, figure.rgba.cols, figure.rgba.rows, static_cast<int>(figure.rgba.step),
-                       PixelFormat::rgba8, 0, 0};
+  character.texture = {figure.rgba.data,
+                       figure.rgba.cols,
+                       figure.rgba.rows,
+                       static_cast<int>(figure.rgba.step),
+                       PixelFormat::rgba8,
+                       0,
+                       0};
   AuthoredCharacter out;
   out.bytes = character_bytes(character);
-  out.report = {static_cast<int>(vertices.size()), static_cast<int>(mesh.triangles.size() / 3), figure.rgba.cols,
-                figure.rgba.rows, figure.from_alpha, pose, notes_on(figure, pose)};
+  out.report = {static_cast<int>(vertices.size()),
+                static_cast<int>(mesh.triangles.size() / 3),
+                figure.rgba.cols,
+                figure.rgba.rows,
+                figure.from_alpha,
+                pose,
+                notes_on(figure, pose)};
   return out;
 }
 

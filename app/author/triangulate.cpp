@@ -119,7 +119,8 @@ std::vector<std::array<uint32_t, 3>> delaunay(const std::vector<Vec2>& points) {
   qhT* qh = &q.state;
   // Qt: only triangles; Qbb, Qc, Qz: precision for points on a grid, coplanar ones kept, a point at infinity.
   char command[] = "qhull d Qt Qbb Qc Qz";
-  const int failed = qh_new_qhull(qh, 2, static_cast<int>(points.size()), flat.data(), False, command, nullptr, nullptr);
+  const int failed =
+      qh_new_qhull(qh, 2, static_cast<int>(points.size()), flat.data(), False, command, nullptr, nullptr);
   if (failed != 0) throw TriangulationError("the figure's outline cannot be cut into triangles");
   std::vector<std::array<uint32_t, 3>> out;
   facetT* facet = nullptr;
@@ -181,7 +182,8 @@ std::vector<double> halved(const std::vector<double>& s, const std::vector<std::
 }
 
 Triangulation triangulate_at(const Outline& outline, float step) {
-  const int count = std::max(16, static_cast<int>(std::lround(outline.perimeter() / static_cast<double>(kOutlineStep * step))));
+  const int count =
+      std::max(16, static_cast<int>(std::lround(outline.perimeter() / static_cast<double>(kOutlineStep * step))));
   std::vector<double> s;
   for (int i = 0; i < count; ++i) s.push_back(outline.perimeter() * i / count);
   for (int repair = 0; repair <= kRepairs; ++repair) {

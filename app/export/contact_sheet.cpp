@@ -64,9 +64,11 @@ void ContactSheet::write(const std::string& path) const {
   const auto count = static_cast<int>(shown.size());
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
   const int rows = (count + columns - 1) / columns;
-  cv::Mat sheet(rows * (tile_height_ + kGap) - kGap, columns * (tile_width_ + kGap) - kGap, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat sheet(rows * (tile_height_ + kGap) - kGap, columns * (tile_width_ + kGap) - kGap, CV_8UC3,
+                cv::Scalar::all(255));
   for (int i = 0; i < count; ++i) {
-    const cv::Rect place(i % columns * (tile_width_ + kGap), i / columns * (tile_height_ + kGap), tile_width_, tile_height_);
+    const cv::Rect place(i % columns * (tile_width_ + kGap), i / columns * (tile_height_ + kGap), tile_width_,
+                         tile_height_);
     auto* pixels = const_cast<uint8_t*>(shown[static_cast<std::size_t>(i)]->rgb.data());
     cv::Mat(tile_height_, tile_width_, CV_8UC3, pixels).copyTo(sheet(place));
   }

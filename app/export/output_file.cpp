@@ -65,7 +65,7 @@ bool OutputFile::reserve(int64_t size) {
 
 bool OutputFile::close() {
   if (descriptor_ < 0) return error_ == 0;
-  struct stat status{};
+  struct stat status {};
   // A device or a pipe has no length to cut.
   if (fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > size_ &&
       ftruncate(descriptor_, size_) != 0 && error_ == 0) {
@@ -76,6 +76,8 @@ bool OutputFile::close() {
   return error_ == 0;
 }
 
-std::string OutputFile::error_line() const { return "cannot write " + path_ + ": " + std::generic_category().message(error_); }
+std::string OutputFile::error_line() const {
+  return "cannot write " + path_ + ": " + std::generic_category().message(error_);
+}
 
 }  // namespace nt

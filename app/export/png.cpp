@@ -29,7 +29,8 @@ void write_png(const std::string& path, const Picture& picture) {
     throw UserError("cannot write " + path + ": there is no picture to write");
   }
   std::vector<uint8_t> bytes;
-  if (!cv::imencode(".png", as_opencv(picture), bytes)) throw UserError("cannot write " + path + ": OpenCV here has no PNG encoder");
+  if (!cv::imencode(".png", as_opencv(picture), bytes))
+    throw UserError("cannot write " + path + ": OpenCV here has no PNG encoder");
   OutputFile file(path);
   const bool complete = file.write_at(0, bytes);
   if (!file.close() || !complete) throw UserError(file.error_line() + "; the picture is cut");

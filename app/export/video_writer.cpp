@@ -61,7 +61,8 @@ const AVCodec* encoder_for(const Container& container, const std::string& path) 
   for (const char* name : container.encoders) {
     if (const AVCodec* codec = avcodec_find_encoder_by_name(name)) return codec;
   }
-  throw UserError("cannot write " + path + ": FFmpeg here has no encoder for " + container.extension + "; use .mp4 or .mkv");
+  throw UserError("cannot write " + path + ": FFmpeg here has no encoder for " + container.extension +
+                  "; use .mp4 or .mkv");
 }
 
 // Television rates are n * 1000/1001 and are usually given rounded (29.97, 23.98).
@@ -134,7 +135,11 @@ struct VideoWriter::Impl {
   std::string failure;
 
   Impl(const std::string& name, int w, int h, double fps)
-      : path(name), width(w), height(h), container(container_for(name)), codec(encoder_for(container, name)),
+      : path(name),
+        width(w),
+        height(h),
+        container(container_for(name)),
+        codec(encoder_for(container, name)),
         sink(checked(name, w, h, fps)) {
     av_log_set_level(AV_LOG_QUIET);
     open_encoder(fps);
@@ -145,7 +150,8 @@ struct VideoWriter::Impl {
   static const std::string& checked(const std::string& name, int w, int h, double fps) {
     const std::string cannot = "cannot write " + name + ": ";
     if (w < 2 || h < 2 || w > 16384 || h > 16384) {
-      throw UserError(cannot + "a video of " + std::to_string(w) + "x" + std::to_string(h) + " pixels cannot be; use 2x2 to 16384x16384");
+      throw UserError(cannot + "a video of " + std::to_string(w) + "x" + std::to_string(h) +
+                      " pixels cannot be; use 2x2 to 16384x16384");
     }
     if (!(fps >= 0.01 && fps <= 10000)) throw UserError(cannot + "the frame rate must lie between 0.01 and 10000");
     return name;
@@ -180,7 +186,8 @@ struct VideoWriter::Impl {
     packet.reset(av_packet_alloc());
     scaler.reset(sws_getContext(encoder->width, encoder->height, AV_PIX_FMT_RGB24, encoder->width, encoder->height,
                                 encoder->pix_fmt, SWS_BICUBIC | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
-    if (av_frame_get_buffer(picture.get(), 0) < 0 || !scaler) cannot_open("there is no memory for a frame", AVERROR(ENOMEM));
+    if (av_frame_get_buffer(picture.get(), 0) < 0 || !scaler)
+      cannot_open("there is no memory for a frame", AVERROR(ENOMEM));
   }
 
   // Sharp thin lines at a rate that two cores keep up with.
@@ -201,7 +208,8 @@ struct VideoWriter::Impl {
   }
 
   void open_container() {
-    const std::string url = "file:" + std::filesystem::absolute(path).string();  // faststart opens it a second time, to read
+    const std::string url =
+        "file:" + std::filesystem::absolute(path).string();  // faststart opens it a second time, to read
     AVFormatContext* raw = nullptr;
     const int made = avformat_alloc_output_context2(&raw, nullptr, container.format, url.c_str());
     if (made < 0) cannot_open("FFmpeg here cannot write " + std::string(container.extension), made);
@@ -228,7 +236,8 @@ struct VideoWriter::Impl {
     if (!failure.empty()) throw UserError(failure);
     if (!open) throw UserError("cannot write " + path + ": it is finished already");
     if (rgb.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3) {
-      throw UserError("cannot write " + path + ": a frame is not " + std::to_string(width) + "x" + std::to_string(height));
+      throw UserError("cannot write " + path + ": a frame is not " + std::to_string(width) + "x" +
+                      std::to_string(height));
     }
     if (av_frame_make_writable(picture.get()) < 0) fail("out of memory");
     const uint8_t* const planes[] = {rgb.data()};
@@ -278,7 +287,8 @@ struct VideoWriter::Impl {
     const int code = av_write_trailer(format.get());
     avio_flush(io.get());
     if (code >= 0 && sink.file.error() == 0 && sink.file.close()) return;
-    const std::string line = sink.file.error() != 0 ? sink.file.error_line() : "cannot write " + path + ": " + av_text(code);
+    const std::string line =
+        sink.file.error() != 0 ? sink.file.error_line() : "cannot write " + path + ": " + av_text(code);
     sink.file.close();
     failure = line + "; its index is missing after " + std::to_string(written) + " frames, and it may not play";
     throw UserError(failure);

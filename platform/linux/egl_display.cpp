@@ -40,7 +40,8 @@ EGLContext create_context(EGLDisplay display) {
   const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;
-  if (eglChooseConfig(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0) fail("EGL offers no OpenGL ES 3");
+  if (eglChooseConfig(display, wanted, &config, 1, &found) == EGL_FALSE || found == 0)
+    fail("EGL offers no OpenGL ES 3");
   const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
   EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
   if (context == EGL_NO_CONTEXT) fail("EGL cannot create an OpenGL ES 3.0 context");
@@ -98,8 +99,11 @@ class Framebuffer {
 class HeadlessDisplay : public Display {
  public:
   HeadlessDisplay(int width, int height)
-      : width_(width), height_(height), framebuffer_(width, height),
-        rgba_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4), rgb_(rgba_.size() / 4 * 3) {}
+      : width_(width),
+        height_(height),
+        framebuffer_(width, height),
+        rgba_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4),
+        rgb_(rgba_.size() / 4 * 3) {}
   ~HeadlessDisplay() override { context_.use(); }
   std::string name() const override { return "EGL surfaceless"; }
   std::string renderer() const override {

@@ -81,9 +81,12 @@ struct GlFormat {
 
 GlFormat gl_format(PixelFormat format) {
   switch (format) {
-    case PixelFormat::luma8: return {GL_R8, GL_RED, 1};
-    case PixelFormat::rgb8: return {GL_RGB8, GL_RGB, 3};
-    case PixelFormat::rgba8: break;
+    case PixelFormat::luma8:
+      return {GL_R8, GL_RED, 1};
+    case PixelFormat::rgb8:
+      return {GL_RGB8, GL_RGB, 3};
+    case PixelFormat::rgba8:
+      break;
   }
   return {GL_RGBA8, GL_RGBA, 4};
 }
@@ -167,8 +170,8 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   upload_buffers();
   glUseProgram(program_);
   const float flip = top_down ? 1.0f : -1.0f;
-  glUniform4f(canvas_uniform_, 2.0f / static_cast<float>(scene.width()), flip * 2.0f / static_cast<float>(scene.height()),
-              -1.0f, -flip);
+  glUniform4f(canvas_uniform_, 2.0f / static_cast<float>(scene.width()),
+              flip * 2.0f / static_cast<float>(scene.height()), -1.0f, -flip);
   glUniform1f(scale_uniform_, fit.scale);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -188,10 +191,18 @@ void GlesRenderer::build(const Scene& scene, float scale) {
   batches_.clear();
   for (const SceneItem& item : scene.items()) {
     switch (item.kind) {
-      case ItemKind::image: add_image(item); break;
-      case ItemKind::mesh: add_mesh(item); break;
-      case ItemKind::lines: add_lines(item, scale); break;
-      case ItemKind::points: add_points(item, scale); break;
+      case ItemKind::image:
+        add_image(item);
+        break;
+      case ItemKind::mesh:
+        add_mesh(item);
+        break;
+      case ItemKind::lines:
+        add_lines(item, scale);
+        break;
+      case ItemKind::points:
+        add_points(item, scale);
+        break;
     }
     if (!batches_.empty()) batches_.back().count = indices_.size() - batches_.back().first;
   }
@@ -276,7 +287,8 @@ void GlesRenderer::add_lines(const SceneItem& item, float scale) {
     const bool end = i == 0 || i + 1 == count;
     const std::size_t before = i > 0 ? i - 1 : (item.closed ? count - 2 : 0);
     const std::size_t after = i + 1 < count ? i + 1 : (item.closed ? 1 : i);
-    const Vec2 in = end && !item.closed && i == 0 ? normalised(strip_[1] - strip_[0]) : normalised(strip_[i] - strip_[before]);
+    const Vec2 in =
+        end && !item.closed && i == 0 ? normalised(strip_[1] - strip_[0]) : normalised(strip_[i] - strip_[before]);
     const Vec2 out = end && !item.closed && i > 0 ? in : normalised(strip_[after] - strip_[i]);
     const Vec2 sum = right_of(in) + right_of(out);
     const float squared = length_sq(sum);  // 4 cos^2 of half the turn
@@ -336,7 +348,8 @@ void GlesRenderer::bind_texture(const Picture& picture) {
   Texture& texture = slot(picture.id);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, texture.handle);
-  const bool fresh = texture.width != picture.width || texture.height != picture.height || texture.format != picture.format;
+  const bool fresh =
+      texture.width != picture.width || texture.height != picture.height || texture.format != picture.format;
   if (!fresh && texture.revision == picture.revision) return;
   upload(picture, fresh);
   texture.width = picture.width, texture.height = picture.height;
@@ -378,7 +391,8 @@ void GlesRenderer::upload(const Picture& picture, bool fresh) {
     }
   }
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, format.external, GL_UNSIGNED_BYTE, staging_.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, format.external, GL_UNSIGNED_BYTE,
+                  staging_.data());
   if (drawing) glGenerateMipmap(GL_TEXTURE_2D);
 }
 

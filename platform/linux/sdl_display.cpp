@@ -12,8 +12,8 @@ namespace nt {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  throw UserError("no window: " + what + " (SDL: " + SDL_GetError() + "); start from a desktop session or a text console, " +
-                  "or use a command that needs no window");
+  throw UserError("no window: " + what + " (SDL: " + SDL_GetError() +
+                  "); start from a desktop session or a text console, " + "or use a command that needs no window");
 }
 
 class SdlVideo {
@@ -122,7 +122,8 @@ class SdlDisplay : public Display {
     const float density_y = static_cast<float>(height) / static_cast<float>(window_height);
     at.x = (static_cast<float>(x) * density_x - static_cast<float>(fit.x)) / fit.scale;
     at.y = (static_cast<float>(y) * density_y - static_cast<float>(fit.y)) / fit.scale;
-    return at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(canvas_width_) && at.y < static_cast<float>(canvas_height_);
+    return at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(canvas_width_) &&
+           at.y < static_cast<float>(canvas_height_);
   }
 
   SdlVideo video_;

@@ -42,6 +42,6 @@ TEST(Alloc, NoneInTenThousandFrames) {
 
 TEST(Alloc, NoneAtTheDefaultSize) {
   int poses = 0;
-  EXPECT_EQ(allocations_after_frame_0({}, 500, poses), 0);
+  EXPECT_EQ(allocations_after_frame_0({}, 10000, poses), 0);
   EXPECT_GT(poses, 250);
 }

@@ -68,7 +68,8 @@ TEST(ContactSheet, SmallFramesAreNotEnlarged) {
 TEST(ContactSheet, ErrorsAreOneLine) {
   const TempDir dir;
   ContactSheet sheet;
-  EXPECT_EQ(user_error([&] { sheet.write(dir / "none.png"); }), "cannot write " + (dir / "none.png") + ": there was no frame to show");
+  EXPECT_EQ(user_error([&] { sheet.write(dir / "none.png"); }),
+            "cannot write " + (dir / "none.png") + ": there was no frame to show");
   sheet.add(flat_frame(20, 20, 0), 20, 20);
   EXPECT_NE(user_error([&] { sheet.write(dir / "no/sheet.png"); }).find("there is no folder"), std::string::npos);
 }

@@ -40,7 +40,8 @@ TEST(Png, ErrorsAreOneLine) {
   picture.width = picture.height = picture.stride = 64;
   EXPECT_NE(user_error([&] { write_png(dir / "no/out.png", picture); }).find("there is no folder"), std::string::npos);
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  EXPECT_EQ(user_error([&] { write_png("/dev/full", picture); }), "cannot write /dev/full: No space left on device; the picture is cut");
+  EXPECT_EQ(user_error([&] { write_png("/dev/full", picture); }),
+            "cannot write /dev/full: No space left on device; the picture is cut");
 }
 
 }  // namespace

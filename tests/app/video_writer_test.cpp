@@ -65,21 +65,26 @@ TEST_P(EveryContainer, KeepsFramesRateAndPicture) {
   ASSERT_EQ(error, "");
   const Clip clip = read_clip(path);
   EXPECT_EQ(clip.frames, 40);
-  EXPECT_NEAR(clip.fps, 30000.0 / 1001, std::string(GetParam()) == ".webm" || std::string(GetParam()) == ".mkv" ? 0.05 : 1e-6);
+  EXPECT_NEAR(clip.fps, 30000.0 / 1001,
+              std::string(GetParam()) == ".webm" || std::string(GetParam()) == ".mkv" ? 0.05 : 1e-6);
   EXPECT_EQ(clip.size, cv::Size(kWidth, kHeight));
   EXPECT_LT(clip.worst, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(VideoWriter, EveryContainer, ::testing::Values(".mp4", ".mov", ".mkv", ".avi", ".webm", ".MP4"),
-                         [](const auto& chosen) {
+INSTANTIATE_TEST_SUITE_P(VideoWriter, EveryContainer,
+                         ::testing::Values(".mp4", ".mov", ".mkv", ".avi", ".webm", ".MP4"), [](const auto& chosen) {
                            const std::string name = chosen.param + 1;
                            return std::isupper(static_cast<unsigned char>(name[0])) != 0 ? "upper_case_" + name : name;
                          });
 
 TEST(VideoWriter, KeepsOddRatesAsFractions) {
   const TempDir dir;
-  for (const auto& [fps, want] : {std::pair{25.0, 25.0}, {23.976, 24000.0 / 1001}, {59.94, 60000.0 / 1001}, {12.5, 12.5},
-                                  {359.0 / 12, 359.0 / 12}, {1000.0, 1000.0}}) {
+  for (const auto& [fps, want] : {std::pair{25.0, 25.0},
+                                  {23.976, 24000.0 / 1001},
+                                  {59.94, 60000.0 / 1001},
+                                  {12.5, 12.5},
+                                  {359.0 / 12, 359.0 / 12},
+                                  {1000.0, 1000.0}}) {
     write_clip(dir / "rate.mp4", 5, fps, 64, 48);
     EXPECT_NEAR(read_clip(dir / "rate.mp4", 64, 48).fps, want, 1e-6);
   }
@@ -122,9 +127,12 @@ TEST(VideoWriter, EachErrorIsOneClearLine) {
   const auto opening = [](const std::string& path, int width = 64, int height = 48, double fps = 30) {
     return user_error([&] { VideoWriter(path, width, height, fps); });
   };
-  EXPECT_EQ(opening(dir / "no/clip.mp4"), "cannot write " + (dir / "no/clip.mp4") + ": there is no folder " + (dir / "no") + "; create it first");
-  EXPECT_EQ(opening(dir / "clip.gif"), "cannot write " + (dir / "clip.gif") + ": a video's name must end in one of .mp4 .mov .mkv .avi .webm");
-  EXPECT_EQ(opening(dir / "clip"), "cannot write " + (dir / "clip") + ": a video's name must end in one of .mp4 .mov .mkv .avi .webm");
+  EXPECT_EQ(opening(dir / "no/clip.mp4"),
+            "cannot write " + (dir / "no/clip.mp4") + ": there is no folder " + (dir / "no") + "; create it first");
+  EXPECT_EQ(opening(dir / "clip.gif"),
+            "cannot write " + (dir / "clip.gif") + ": a video's name must end in one of .mp4 .mov .mkv .avi .webm");
+  EXPECT_EQ(opening(dir / "clip"),
+            "cannot write " + (dir / "clip") + ": a video's name must end in one of .mp4 .mov .mkv .avi .webm");
   std::filesystem::create_directory(dir / "folder.mp4");
   EXPECT_EQ(opening(dir / "folder.mp4"), "cannot write " + (dir / "folder.mp4") + ": Is a directory");
   EXPECT_NE(opening(dir / "clip.mp4", 1, 48).find("1x48 pixels cannot be"), std::string::npos);
@@ -142,8 +150,9 @@ TEST(VideoWriter, EachErrorIsOneClearLine) {
 TEST(VideoWriter, AFolderThatMayNotBeWrittenIsNamed) {
   const TempDir dir;
   std::filesystem::create_directory(dir / "locked");
-  std::filesystem::permissions(dir / "locked", std::filesystem::perms::owner_read | std::filesystem::perms::others_read |
-                                                   std::filesystem::perms::owner_exec | std::filesystem::perms::others_exec);
+  std::filesystem::permissions(dir / "locked",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::others_read |
+                                   std::filesystem::perms::owner_exec | std::filesystem::perms::others_exec);
   std::filesystem::permissions(dir.path(), std::filesystem::perms::all);
   const bool root = geteuid() == 0;
   if (root && seteuid(65534) != 0) GTEST_SKIP() << "root writes everywhere";
@@ -205,7 +214,8 @@ Told fill_up(const std::string& path, void (*confine)(const std::string& folder,
   close(ends[1]);
   std::string report;
   char buffer[256];
-  for (ssize_t got; (got = read(ends[0], buffer, sizeof buffer)) > 0;) report.append(buffer, static_cast<std::size_t>(got));
+  for (ssize_t got; (got = read(ends[0], buffer, sizeof buffer)) > 0;)
+    report.append(buffer, static_cast<std::size_t>(got));
   close(ends[0]);
   Told told;
   int status = 0;

@@ -16,19 +16,22 @@ struct Golden {
   const char* scene;
   nt::BackgroundKind background;
   int frames;
+  int width, height;
   const char *tank_frames, *integer_stages, *poses, *vertices;
 };
 
 constexpr Golden kGolden[] = {
-    {"calm", nt::BackgroundKind::vibe, 300, "cc2e7b030ce71d83", "59fcd9594622822e", "851cc9ddc5aa203b",
+    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "59fcd9594622822e", "851cc9ddc5aa203b",
      "2ed29d1759714ee7"},
-    {"shadow", nt::BackgroundKind::vibe, 120, "b4391060a1d89061", "51331b773dd440b5", "e1bbd65e1b596808",
+    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "2db1d9cd4fbcc6d5", "ca9eba06b4596701",
+     "638295788e8d7f49"},
+    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "51331b773dd440b5", "e1bbd65e1b596808",
      "ecaae93d16706677"},
-    {"night", nt::BackgroundKind::vibe, 120, "31753c3abef4667d", "ec1c8a9b9be4f12b", "f24c7630f8e40ed4",
+    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "ec1c8a9b9be4f12b", "f24c7630f8e40ed4",
      "2adfb276454849e8"},
-    {"calm", nt::BackgroundKind::still, 120, "4b5cb26b8a3874dc", "4e330cc078839fb6", "3580814976f4ae2f",
+    {"calm", nt::BackgroundKind::still, 120, 960, 544, "4b5cb26b8a3874dc", "4e330cc078839fb6", "3580814976f4ae2f",
      "8712010e44978de4"},
-    {"calm", nt::BackgroundKind::backlit, 120, "4b5cb26b8a3874dc", "8ef6eb093eefaea6", "175191e700f574f6",
+    {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "8ef6eb093eefaea6", "175191e700f574f6",
      "6774d41723bd1b5d"},
 };
 
@@ -69,7 +72,7 @@ TEST_P(TankRunGolden, SameBits) {
   nt::CaptureSettings settings;
   settings.background.kind = golden.background;
   settings.fingerprint = true;
-  const nt::TankSettings tank{.scene = golden.scene, .seed = 1};
+  const nt::TankSettings tank{.scene = golden.scene, .seed = 1, .width = golden.width, .height = golden.height};
   nt::test::TankRun run(tank, nt::test::limits_for(tank), settings);
   uint64_t frames = nt::kHashSeed, integers = nt::kHashSeed, poses = nt::kHashSeed, vertices = nt::kHashSeed;
   for (int n = 0; n < golden.frames; ++n) {
@@ -89,5 +92,6 @@ TEST_P(TankRunGolden, SameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Golden, TankRunGolden, testing::ValuesIn(kGolden), [](const auto& test) {
-  return std::string(test.param.scene) + "_" + std::to_string(static_cast<int>(test.param.background));
+  return std::string(test.param.scene) + "_" + std::to_string(static_cast<int>(test.param.background)) + "_" +
+         std::to_string(test.param.frames);
 });

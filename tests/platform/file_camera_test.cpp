@@ -27,7 +27,8 @@ void write_clip(const std::string& path, int frames, double fps = 30, int width 
 }
 
 void write_motion_jpeg(const std::string& path, int frames) {
-  cv::VideoWriter writer(path, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10, {kWidth, kHeight});
+  cv::VideoWriter writer(path, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
+                         {kWidth, kHeight});
   for (int n = 0; n < frames; ++n) {
     std::vector<uint8_t> rgb = ramp_frame(kWidth, kHeight, n);
     cv::Mat bgr;
@@ -283,7 +284,8 @@ TEST_F(PictureFolder, ADamagedPictureIsPassedOverAndTold) {
 TEST_F(PictureFolder, PicturesOfTwoSizesAreAnError) {
   save(7, 7, {32, 48});
   const auto camera = open_file_camera(dir_.path(), 960, 544);
-  EXPECT_NE(user_error([&] { drain(*camera); }).find("frame 6 is 32x48 pixels, the first was 64x48"), std::string::npos);
+  EXPECT_NE(user_error([&] { drain(*camera); }).find("frame 6 is 32x48 pixels, the first was 64x48"),
+            std::string::npos);
 }
 
 TEST(FileCamera, ATruncatedFileGivesItsFramesAndAWarning) {
@@ -303,7 +305,8 @@ TEST(FileCamera, ATruncatedFileGivesItsFramesAndAWarning) {
     }
     EXPECT_GT(frames, 10) << extension;
     EXPECT_LT(frames, 45) << extension;
-    EXPECT_EQ(camera->warning(), "clip." + extension + ": the file ends early: " + std::to_string(frames) + " of 60 frames could be read");
+    EXPECT_EQ(camera->warning(),
+              "clip." + extension + ": the file ends early: " + std::to_string(frames) + " of 60 frames could be read");
   }
 }
 
@@ -341,7 +344,8 @@ TEST(FileCamera, WhatIsNoClipIsOneLine) {
   write_text(dir / "head.mp4", bytes_of(dir / "whole.mp4").substr(0, 40));
   ::testing::internal::CaptureStderr();
   EXPECT_EQ(open_error(dir / "none.mp4"), (dir / "none.mp4") + ": no such file; check the path");
-  EXPECT_EQ(open_error(dir / "empty"), (dir / "empty") + ": there is no picture in this folder; give one that holds .png or .jpg frames");
+  EXPECT_EQ(open_error(dir / "empty"),
+            (dir / "empty") + ": there is no picture in this folder; give one that holds .png or .jpg frames");
   EXPECT_EQ(open_error(dir / "no_%d.png"), (dir / "no_%d.png") + ": no picture matches this pattern; check the path");
   EXPECT_EQ(open_error(dir / "no*.png"), (dir / "no*.png") + ": no picture matches this pattern; check the path");
   EXPECT_EQ(open_error(dir / "zero.mp4"), (dir / "zero.mp4") + ": the file is empty; record it again");
@@ -359,7 +363,8 @@ TEST(FileCamera, SizesFromOnePixelTo8K) {
   cv::imwrite(dir / "8k.png", cv::Mat(4320, 7680, CV_8UC1, cv::Scalar(90)));
   cv::imwrite(dir / "wide.png", cv::Mat(20, 8193, CV_8UC1, cv::Scalar(90)));
   cv::imwrite(dir / "thin.png", cv::Mat(20, 8192, CV_8UC1, cv::Scalar(90)));
-  EXPECT_EQ(open_error(dir / "dot.png"), (dir / "dot.png") + ": its frames are 1x1 pixels, too small to hold a fish; use 16x16 or more");
+  EXPECT_EQ(open_error(dir / "dot.png"),
+            (dir / "dot.png") + ": its frames are 1x1 pixels, too small to hold a fish; use 16x16 or more");
   EXPECT_NE(open_error(dir / "flat.png").find("400x15 pixels, too small to hold a fish"), std::string::npos);
   EXPECT_NE(open_error(dir / "wide.png").find("8193x20 pixels, too large"), std::string::npos);
   EXPECT_NE(open_error(dir / "thin.png").find("at the working size it is 960x2 pixels, too small"), std::string::npos);

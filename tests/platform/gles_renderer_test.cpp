@@ -52,14 +52,16 @@ TEST_F(GlesRendererTest, PlacesAnImageUprightAndExactly) {
   open(64, 48);
   if (!display_) return;
   std::vector<uint8_t> rgb;  // 4x2, every pixel of its own colour
-  for (int i = 0; i < 8; ++i) rgb.insert(rgb.end(), {static_cast<uint8_t>(30 * i), static_cast<uint8_t>(255 - 30 * i), 7});
+  for (int i = 0; i < 8; ++i)
+    rgb.insert(rgb.end(), {static_cast<uint8_t>(30 * i), static_cast<uint8_t>(255 - 30 * i), 7});
   Scene scene = blank();
   scene.image(picture_of(rgb, 4, 2, PixelFormat::rgb8, 1), {8, 16}, {4, 2});
   draw(scene);
   for (int i = 0; i < 8; ++i) {
     EXPECT_TRUE(near_colour(at(8 + i % 4, 16 + i / 4), {30 * i, 255 - 30 * i, 7}, 1)) << i;
   }
-  for (const auto& [x, y] : {std::pair{7, 16}, {12, 16}, {8, 15}, {8, 18}}) EXPECT_TRUE(near_colour(at(x, y), {0, 0, 0}));
+  for (const auto& [x, y] : {std::pair{7, 16}, {12, 16}, {8, 15}, {8, 18}})
+    EXPECT_TRUE(near_colour(at(x, y), {0, 0, 0}));
 }
 
 TEST_F(GlesRendererTest, LumaIsGreyAndPaddedRowsAreSkipped) {
@@ -181,8 +183,9 @@ TEST_F(GlesRendererTest, DenseAndFoldedLinesStayInsideTheirThickness) {
   open(100, 100);
   if (!display_) return;
   std::vector<Vec2> strip;
-  for (int i = 0; i < 60; ++i) strip.push_back({20.0f + static_cast<float>(i), i % 2 == 0 ? 50.0f : 51.0f});  // staircase
-  strip.push_back({20, 50.5f});                                                                                // and back
+  for (int i = 0; i < 60; ++i)
+    strip.push_back({20.0f + static_cast<float>(i), i % 2 == 0 ? 50.0f : 51.0f});  // staircase
+  strip.push_back({20, 50.5f});                                                    // and back
   strip.push_back({20, 50.5f});
   Scene scene = blank();
   scene.lines(strip, {1, 1, 1, 1}, 4);

@@ -41,7 +41,7 @@ inline constexpr int kTestHeight = 120;
 
 // 160x120: grey image top left, red-green texture on a square mesh, a white line, a blue point, a half-clear yellow loop.
 struct TestScene {
-  std::array<uint8_t, 4> grey = {0, 80, 160, 255};                                             // 2x2
+  std::array<uint8_t, 4> grey = {0, 80, 160, 255};                                                     // 2x2
   std::array<uint8_t, 16> drawing = {255, 0, 0, 255, 0, 255, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255};  // red | green
   std::array<Vec2, 4> corners = {Vec2{90, 20}, {130, 20}, {90, 60}, {130, 60}};
   std::array<Vec2, 4> texcoords = {Vec2{0, 0}, {1, 0}, {0, 1}, {1, 1}};

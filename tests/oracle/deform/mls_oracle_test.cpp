@@ -47,8 +47,8 @@ Row paper(const Row& v, const std::vector<Row>& p, const std::vector<Row>& q, Ml
     f += (q[i] - q_star) * (w[i] * left * right.transpose());
     mu += w[i] * ph.squaredNorm();
   }
-  if (kind == MlsKind::similarity) return f / mu + q_star;   // Eq 6
-  return (v - p_star).norm() * f / f.norm() + q_star;        // Eq 8
+  if (kind == MlsKind::similarity) return f / mu + q_star;  // Eq 6
+  return (v - p_star).norm() * f / f.norm() + q_star;       // Eq 8
 }
 
 TEST(MlsOracle, MatchesThePaperOnRandomHandles) {

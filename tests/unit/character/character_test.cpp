@@ -16,7 +16,9 @@ namespace {
 
 using test::DrawnCharacter;
 
-Result<Character> open(std::span<const std::byte> bytes, const Limits& limits = {}) { return open_character(bytes, limits); }
+Result<Character> open(std::span<const std::byte> bytes, const Limits& limits = {}) {
+  return open_character(bytes, limits);
+}
 
 // Makes the checksum right again after a change, so that the checks behind it are reached.
 void seal(DrawnCharacter& c) {
@@ -62,7 +64,8 @@ TEST(Character, EveryByteFlippedIsRefused) {
 
 TEST(Character, EveryTruncationIsRefused) {
   DrawnCharacter drawn;
-  for (std::size_t n = 0; n < drawn.bytes().size(); n += n < 200 ? 1 : 61) EXPECT_FALSE(open(drawn.bytes().first(n)).ok()) << n;
+  for (std::size_t n = 0; n < drawn.bytes().size(); n += n < 200 ? 1 : 61)
+    EXPECT_FALSE(open(drawn.bytes().first(n)).ok()) << n;
 }
 
 TEST(Character, ANewerFileSaysSo) {

@@ -75,4 +75,8 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
       "N", "of the background model's random choices; the same seed gives the same result (default 1)");
 }
 
+std::vector<std::string> inputs_of(const CaptureOptions& options) {
+  return {options.camera.path, options.background.picture};
+}
+
 }  // namespace nt

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/camera_spec.h"
 #include "app/numbers.h"
@@ -40,5 +41,8 @@ struct CaptureOptions {
   uint64_t seed = 1;
 };
 void add_capture_options(CLI::App& command, CaptureOptions& options);
+
+// The files that the options name for reading.
+std::vector<std::string> inputs_of(const CaptureOptions& options);
 
 }  // namespace nt

@@ -10,8 +10,11 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/actor.h"
+#include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/film.h"
 #include "app/export/pose_csv.h"
@@ -82,6 +85,9 @@ class Stage {
 };
 
 void animate(const Options& options) {
+  std::vector<std::string> inputs = inputs_of(options.capture);
+  inputs.push_back(options.character);
+  check_outputs(inputs, {options.out, options.contact_sheet, options.csv, options.json});
   Session session(options.capture);
   Stage stage(options, session);
   const double fps = session.info().fps;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/film.h"
 #include "app/export/pose_csv.h"
@@ -36,6 +37,8 @@ void add_truth(PoseCsv& truth, Session& session) {
 }
 
 void capture(const Options& options) {
+  check_outputs(inputs_of(options.capture),
+                {options.csv, options.truth, options.overlay, options.json, options.contact_sheet});
   Session session(options.capture);
   std::optional<PoseCsv> csv, truth;
   if (!options.csv.empty()) csv.emplace(options.csv, session.scale());

@@ -9,6 +9,7 @@
 
 #include "app/author/character_file.h"
 #include "app/author/picture_character.h"
+#include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/png.h"
 #include "app/text_file.h"
@@ -82,6 +83,7 @@ std::string found(const PictureReport& report) {
 }
 
 void make_character(const Options& options) {
+  check_outputs({options.picture}, {options.out, options.preview});
   const AuthoredCharacter authored = author_picture(options.picture, options.author);
   const LoadedCharacter loaded(authored.bytes, options.out, Limits{});  // the same checks as when it is used
   write_character_file(options.out, authored.bytes);

@@ -109,7 +109,7 @@ class Live {
       recording_->finish();
       recording_.reset();
     } else {
-      recording_ = std::make_unique<Recording>(options_.record_to, ++recordings_, session_, scene_);
+      recording_ = std::make_unique<Recording>(options_.record_to, session_, scene_);
     }
   }
 
@@ -183,7 +183,6 @@ class Live {
   std::vector<InputEvent> events_;
   Scene scene_;
   std::unique_ptr<Recording> recording_;
-  int recordings_ = 0;
   bool paused_ = false, quit_ = false;
   int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
   int64_t drawn_ = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `live` records between two presses of r: PREFIX-1.csv (poses) and PREFIX-1.mp4 (the window, without the HUD).
+// What `live` records between two presses of r: PREFIX-N.csv (poses) and PREFIX-N.mp4 (the window, without the HUD), N = 1
+// or the next that is free.
 #pragma once
-#include <memory>
+#include <filesystem>
 #include <string>
 
 #include "app/export/film.h"
@@ -12,9 +13,8 @@ namespace nt {
 
 class Recording {
  public:
-  Recording(const std::string& prefix, int number, Session& session, const Scene& scene)
-      : csv_(prefix + "-" + std::to_string(number) + ".csv", session.scale()),
-        film_(prefix + "-" + std::to_string(number) + ".mp4", "", scene.width(), scene.height(), session.info().fps) {}
+  Recording(const std::string& prefix, Session& session, const Scene& scene)
+      : Recording(free_name(prefix), session, scene, 0) {}
 
   // Once a video frame.
   void add(Session& session, const Scene& scene) {
@@ -30,6 +30,18 @@ class Recording {
   }
 
  private:
+  Recording(const std::string& name, Session& session, const Scene& scene, int /* the name is final */)
+      : csv_(name + ".csv", session.scale()),
+        film_(name + ".mp4", "", scene.width(), scene.height(), session.info().fps) {}
+
+  // PREFIX-N with the smallest N that no file has yet: an earlier recording is never overwritten.
+  static std::string free_name(const std::string& prefix) {
+    for (int n = 1;; ++n) {
+      const std::string name = prefix + "-" + std::to_string(n);
+      if (!std::filesystem::exists(name + ".csv") && !std::filesystem::exists(name + ".mp4")) return name;
+    }
+  }
+
   PoseCsv csv_;
   Film film_;
   int64_t last_ = -1;  // sequence number of the frame added last

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check_outputs.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+bool is_file(const std::string& path) {
+  std::error_code unused;
+  return !path.empty() && path != "-" &&
+         (!std::filesystem::exists(path, unused) || std::filesystem::is_regular_file(path, unused));
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  if (!is_file(a) || !is_file(b)) return false;
+  std::error_code unused;
+  return std::filesystem::equivalent(a, b, unused) ||
+         std::filesystem::weakly_canonical(a, unused) == std::filesystem::weakly_canonical(b, unused);
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const std::string& input : inputs) {
+      if (same_file(outputs[i], input))
+        throw UserError(outputs[i] + " is read by this command and would be overwritten; give the output another name",
+                        2);
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same_file(outputs[i], outputs[k]))
+        throw UserError(outputs[i] + " is named for two outputs; give each its own name", 2);
+    }
+  }
+}
+
+}  // namespace nt

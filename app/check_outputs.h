@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Before a command writes anything: no output may be one of the files that it reads, nor may two outputs be one file.
+//
+// Paths -> UserError (code 2, one line) or nothing. Empty paths and "-" (standard output) are passed over. Files are
+// compared, not spellings: a link to the video is the video.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace nt {
+
+void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+}  // namespace nt

@@ -87,7 +87,7 @@ BackgroundKind Session::choose_model(const CaptureOptions& options) {
   }
   const BackgroundChoice choice = choose_background(spread_frames(*camera_));
   why_ = choice.why;
-  std::fprintf(stderr, "background: %s (%s)\n", model_name(choice.kind), why_.c_str());
+  announcement_ = std::string("background: ") + model_name(choice.kind) + " (" + why_ + ")";
   return choice.kind;
 }
 
@@ -127,6 +127,9 @@ bool Session::step() {
   if (interrupted() || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
   const std::optional<Frame> next = camera_->next();
   if (!next) return false;
+  // Only now: whatever was wrong with the outputs has had its one line.
+  if (!announcement_.empty()) std::fprintf(stderr, "%s\n", announcement_.c_str());
+  announcement_.clear();
   count_gap(*next);
   frame_ = *next;
   {

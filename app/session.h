@@ -52,6 +52,7 @@ class Session {
   StepReport report_;
   Statistics statistics_;
   std::string why_;
+  std::string announcement_;  // of the background that auto chose, until the first frame
 };
 
 // Throws UserError where not one frame came.

@@ -20,7 +20,7 @@ constexpr std::size_t kFlushAt = 64 * 1024;
 
 TextFile::TextFile(const std::string& path, Kind kind) : path_(path), is_stdout_(path == "-") {
   file_ = is_stdout_ ? STDOUT_FILENO : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file_ < 0) throw UserError("cannot create " + path_ + ": " + std::strerror(errno));
+  if (file_ < 0) throw UserError("cannot create " + path_ + ": " + std::strerror(errno) + "; check its folder");
   struct stat about {};
   keeps_rows_ = kind == Kind::rows && ::fstat(file_, &about) == 0 && S_ISREG(about.st_mode);
 }

@@ -78,6 +78,7 @@ Finding memory() {
 Finding trial() {
   CaptureOptions options;
   options.frames = kTrialFrames;
+  options.camera.tank.scene = "ghost";  // its fish is there from the first frame
   options.background.kind = BackgroundOption::Kind::vibe;
   Session session(options);
   while (session.step()) {

@@ -21,7 +21,7 @@ constexpr float kFloodShare = 0.4f;
 constexpr int kFloodFrames = 8;
 constexpr float kRingHole = 0.1f;  // share of the outline: eyes of the ground's tone are 2 %, a ring's hole much more
 constexpr int kGhostBlobs = 64;    // more blobs than this are specks, not ghosts; bounds the cost of looking
-constexpr int kForgetOrder = 5;    // frames without a pose after which the order of head and tail is open again
+constexpr int kForgetOrder = 15;   // frames without a pose after which the order of head and tail is open again
 constexpr float kTravelFrames = 5.0f;
 
 struct CaptureImpl final : Capture {
@@ -195,7 +195,8 @@ void CaptureImpl::find_pose(const Frame& frame, StageClock& clock, StepReport& r
   if (target.changed()) init_len = 0;
   LandmarkHints hints;
   hints.has_last = has_last;
-  hints.last_head = last_head + target.velocity(), hints.last_tail = last_tail + target.velocity();
+  const Vec2 moved = target.velocity() * static_cast<float>(frames_without_pose + 1);
+  hints.last_head = last_head + moved, hints.last_tail = last_tail + moved;
   hints.head_log_odds = head_log_odds;
   hints.travel = has_last ? travel : target.velocity() * kTravelFrames;
   const bool found = landmarks->find({contour.data(), static_cast<std::size_t>(contour_count)}, hints, pose);

@@ -7,7 +7,7 @@
 // luma, background estimate, blob and its runs -> mask in box coordinates.
 // Differs from [F] section 4, which applies Otsu to the box's luma: here it works on |luma - background| and only
 // where the two classes separate and the far class has the fish's own sign or the near one keeps the ground's texture.
-// Cost: O(box), about 0.05 ms for a 300 x 200 box.
+// Cost: O(box), about 0.08 ms for a 300 x 200 box.
 #pragma once
 #include <cstdint>
 #include <span>

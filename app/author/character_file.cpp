@@ -20,11 +20,24 @@ std::vector<Vec2> control_section(const Character& character) {
   std::vector<Vec2> out{c.centre, c.head, c.tail};
   out.insert(out.end(), c.up_axis, c.up_axis + character.u_num);
   out.insert(out.end(), c.low_axis, c.low_axis + character.l_num);
-  const Vec2 none;
-  const bool l = character.has_l_fin, r = character.has_r_fin;
-  out.insert(out.end(), {l ? c.jun_tl : none, r ? c.jun_tr : none, l ? c.jun_bl : none, r ? c.jun_br : none,
-                         l ? c.l_fin : none, r ? c.r_fin : none});
+  for (const FinPoints& fin : c.fins) {
+    for (const Vec2 p : {fin.top, fin.bottom, fin.tip}) out.push_back(fin.present ? p : Vec2{});
+  }
   return out;
+}
+
+// Confidences given for each control point, or full ones.
+std::vector<float> confidence_section(const Character& character, std::size_t controls) {
+  std::vector<float> out(character.confidences.begin(), character.confidences.end());
+  out.resize(controls, 1.0f);
+  return out;
+}
+
+uint32_t flags_of(const Character& character) {
+  uint32_t flags = character.has_tail_fin ? kCharacterTailFin : 0u;
+  if (character.solid()) flags |= kCharacterSolid;
+  for (int i = 0; i < kMaxFins; ++i) flags |= character.rest.fins[i].present ? 1u << i : 0u;
+  return flags;
 }
 
 // Appends a section on the next 64-byte line and returns its offset.
@@ -44,7 +57,8 @@ std::vector<std::byte> character_bytes(const Character& character) {
   h.header_bytes = sizeof h;
   h.u_num = static_cast<uint32_t>(character.u_num);
   h.l_num = static_cast<uint32_t>(character.l_num);
-  h.flags = (character.has_l_fin ? kCharacterLeftFin : 0u) | (character.has_r_fin ? kCharacterRightFin : 0u);
+  h.harmonics = static_cast<uint32_t>(character.harmonics);
+  h.flags = flags_of(character);
   h.vertex_count = static_cast<uint32_t>(character.vertices.size());
   h.triangle_count = static_cast<uint32_t>(character.triangles.size() / 3);
   h.texture_width = static_cast<uint32_t>(character.texture.width);
@@ -53,7 +67,13 @@ std::vector<std::byte> character_bytes(const Character& character) {
   std::vector<std::byte> bytes(sizeof h);
   const std::vector<Vec2> controls = control_section(character);
   h.controls_offset = append(bytes, controls.data(), controls.size() * sizeof(Vec2));
+  const std::vector<float> confidences = confidence_section(character, controls.size());
+  h.confidences_offset = append(bytes, confidences.data(), confidences.size() * sizeof(float));
   h.vertices_offset = append(bytes, character.vertices.data(), character.vertices.size_bytes());
+  if (character.solid()) {
+    h.heights_offset = append(bytes, character.heights.data(), character.heights.size_bytes());
+    h.normals_offset = append(bytes, character.normals.data(), character.normals.size_bytes());
+  }
   h.texcoords_offset = append(bytes, character.texcoords.data(), character.texcoords.size_bytes());
   h.triangles_offset = append(bytes, character.triangles.data(), character.triangles.size_bytes());
   const std::size_t row = std::size_t{4} * h.texture_width;

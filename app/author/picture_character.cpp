@@ -81,9 +81,8 @@ ControlPoints control_points(const FishPose& pose, const CharacterFrame& local) 
   c.centre = local(pose.centre), c.head = local(pose.head), c.tail = local(pose.tail);
   for (int i = 0; i < pose.u_num; ++i) c.up_axis[i] = local(pose.up_axis[i]);
   for (int i = 0; i < pose.l_num; ++i) c.low_axis[i] = local(pose.low_axis[i]);
-  c.jun_tl = local(pose.jun_tl), c.jun_tr = local(pose.jun_tr);
-  c.jun_bl = local(pose.jun_bl), c.jun_br = local(pose.jun_br);
-  c.l_fin = local(pose.l_fin), c.r_fin = local(pose.r_fin);
+  c.fins[kLeftFin] = {pose.confidence.l_fin > 0, local(pose.jun_tl), local(pose.jun_bl), local(pose.l_fin)};
+  c.fins[kRightFin] = {pose.confidence.r_fin > 0, local(pose.jun_tr), local(pose.jun_br), local(pose.r_fin)};
   return c;
 }
 
@@ -169,8 +168,7 @@ AuthoredCharacter author_picture(const std::string& path, const PictureOptions& 
   Character character;
   character.u_num = options.u_num;
   character.l_num = options.l_num;
-  character.has_l_fin = pose.confidence.l_fin > 0;
-  character.has_r_fin = pose.confidence.r_fin > 0;
+  character.harmonics = options.harmonics;
   character.rest = control_points(pose, local);
   character.vertices = vertices;
   character.texcoords = texcoords;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A character: a drawing cut into triangles, with the control points of [F] section 5 in its rest pose.
+// A character: a drawing or a solid model cut into triangles, with the control points of [F] section 5 in its rest pose.
 //
 // This is a view onto the bytes of a character file (docs/FORMATS.md): the file is mapped or read once and used as it
 // is, without parsing or copying. `open_character` checks magic, version, sizes, every index and the checksum, and
 // refuses what does not fit with one line.
 //
-// Frame of reference: character units = pixels of the drawing; origin at the rest pose's centre, x to the character's
-// right, y towards its head (so y is up, as in the fish-local frame of core/motion/motion.h). u_num and l_num are the
-// character's own; retargeting resamples the motion when the capture used others.
+// Frame of reference: character units = pixels of the drawing (of the top view of a solid); origin at the rest pose's
+// centre, x to the character's right, y towards its head (so y is up, as in the fish-local frame of core/motion/motion.h),
+// z towards the viewer above. Control points lie at z = 0. Triangles run anticlockwise seen from outside (from above for a
+// drawing); solids may have open sheets, fins say, so both sides are shown. u_num, l_num and S are the character's own;
+// retargeting resamples the motion when the capture used others.
 // Cost: O(file size) once for the checks.
 #pragma once
 #include <cstddef>
@@ -16,28 +18,44 @@
 
 #include "core/base/limits.h"
 #include "core/base/status.h"
+#include "core/base/vec3.h"
 #include "core/landmarks/fish_pose.h"
 #include "core/scene/scene.h"
 
 namespace nt {
 
-// [F] Eq 12, in character units and axes. A character without fins has has_l_fin / has_r_fin false.
+// The fins of a character: none, one pair, or two. Left and right as the character has them, seen from above. Of two pairs
+// the first is the one nearer to the head.
+enum FinIndex : int { kLeftFin, kRightFin, kSecondLeftFin, kSecondRightFin, kMaxFins };
+
+struct FinPoints {
+  bool present = false;
+  Vec2 top, bottom;  // fin-body junctions on the head's side and on the tail's
+  Vec2 tip;
+};
+
+// [F] Eq 12, in character units and axes.
 struct ControlPoints {
   Vec2 centre, head, tail;
   Vec2 up_axis[kMaxUpAxis];
   Vec2 low_axis[kMaxLowAxis];
-  Vec2 jun_tl, jun_tr, jun_bl, jun_br;
-  Vec2 l_fin, r_fin;
+  FinPoints fins[kMaxFins];
 };
 
 struct Character {
   int u_num = 3, l_num = 15;
-  bool has_l_fin = false, has_r_fin = false;
+  int harmonics = 5;         // S
+  bool has_tail_fin = true;  // false: the tail is the end of the body itself (a flower's stem, a lizard)
   ControlPoints rest;
+  std::span<const float> confidences;   // one per control point in the file's order; 1 = sure or set by hand
   std::span<const Vec2> vertices;       // rest pose, character units
+  std::span<const float> heights;       // z of the vertices; empty for a drawing
+  std::span<const Vec3> normals;        // of the vertices at rest, outwards; empty for a drawing
   std::span<const Vec2> texcoords;      // [0, 1], v down
   std::span<const uint32_t> triangles;  // three indices each
   Picture texture;                      // rgba8
+
+  bool solid() const { return !heights.empty(); }
 };
 
 // `bytes` must start on a 64-byte line and outlive the Character.

@@ -42,8 +42,9 @@ float open_of_angle(float angle_rad, float side) {
 }
 float angle_of_open(float open, float side) { return side > 0 ? open - det::kHalfPi : -det::kHalfPi - open; }
 
-// Which side of the fish fin 0 (left) and fin 1 (right) are on.
-float fish_side(int index) { return index == 0 ? -1.0f : 1.0f; }
+// Left fins have even indices, right ones odd.
+bool is_left(int index) { return index % 2 == 0; }
+float fish_side(int index) { return is_left(index) ? -1.0f : 1.0f; }
 
 }  // namespace
 
@@ -65,16 +66,16 @@ BoneLengths bone_lengths(const Character& character) {
   }
   l.tail_len = distance(joint, c.tail);
   l.body_len += l.head_len + l.tail_len;
-  l.l_fin_len = character.has_l_fin ? distance(c.jun_tl, c.l_fin) : 0.0f;
-  l.r_fin_len = character.has_r_fin ? distance(c.jun_tr, c.r_fin) : 0.0f;
+  for (int i = 0; i < kMaxFins; ++i) l.fin_len[i] = c.fins[i].present ? distance(c.fins[i].top, c.fins[i].tip) : 0.0f;
   return l;
 }
 
-void Retarget::add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float fin_len) {
+void Retarget::add_fin(int index) {
+  const auto& [present, top, bottom, tip] = character_.rest.fins[index];
   Fin& fin = fins_[index];
   fin.present = true;
   fin.first = control_count_;
-  fin.length = fin_len;
+  fin.length = lengths_.fin_len[index];
   // By where the fin is rather than by its name: a mirrored or odd drawing still opens outwards.
   fin.side = (tip.x - top.x) + (tip.x - character_.rest.centre.x) >= 0 ? 1.0f : -1.0f;
   fin.rest_open = open_of_angle(angle_of(tip - top), fin.side);
@@ -94,8 +95,9 @@ void Retarget::collect_rest() {
   rest_[control_count_++] = c.tail;
   for (int i = 0; i < character_.u_num; ++i) rest_[control_count_++] = c.up_axis[i];
   for (int i = 0; i < character_.l_num; ++i) rest_[control_count_++] = c.low_axis[i];
-  if (character_.has_l_fin) add_fin(0, c.jun_tl, c.jun_bl, c.l_fin, lengths_.l_fin_len);
-  if (character_.has_r_fin) add_fin(1, c.jun_tr, c.jun_br, c.r_fin, lengths_.r_fin_len);
+  for (int i = 0; i < kMaxFins; ++i) {
+    if (c.fins[i].present) add_fin(i);
+  }
 }
 
 Result<Retarget*> Retarget::create(Arena& arena, const Character& character, const RetargetSettings& settings) {
@@ -117,7 +119,7 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
   r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
   if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));
   if (arena.full()) return Status{StatusCode::out_of_memory, "no memory for the character; raise max_vertices"};
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < kMaxFins; ++i) {
     if (r.fins_[i].present) r.find_fin_range(i);
   }
   self[0] = r;
@@ -172,13 +174,13 @@ Motion Retarget::rest_motion() const {
   pose.confidence = {1, 1, 1, 0, 0, 1};
   Motion m = motion_from_pose(pose, 0, nullptr);
   m.centre = {};
-  for (int i = 0; i < 2; ++i) {
+  for (int i = kMaxFins - 1; i >= 0; --i) {  // where there are two pairs, the first one tells
     if (!fins_[i].present) continue;
     const FinRange range = fin_range_[i];
     const float share = range.width() > 0.0f ? (fins_[i].rest_open - range.folded) / range.width() : 0.0f;
-    (i == 0 ? m.l_fin_angle : m.r_fin_angle) =
+    (is_left(i) ? m.l_fin_angle : m.r_fin_angle) =
         angle_of_open(kFishFins.folded + share * kFishFins.width(), fish_side(i));
-    (i == 0 ? m.confidence.l_fin : m.confidence.r_fin) = 1.0f;
+    (is_left(i) ? m.confidence.l_fin : m.confidence.r_fin) = 1.0f;
   }
   return m;
 }
@@ -269,13 +271,11 @@ void Retarget::place(const Frame& frame, const Placement& placement) {
   c.centre = scene(points_[at++]), c.head = scene(points_[at++]), c.tail = scene(points_[at++]);
   for (int i = 0; i < character_.u_num; ++i) c.up_axis[i] = scene(points_[at++]);
   for (int i = 0; i < character_.l_num; ++i) c.low_axis[i] = scene(points_[at++]);
-  if (fins_[0].present) {
-    const Vec2* fin = points_ + fins_[0].first;
-    c.jun_tl = scene(fin[0]), c.jun_bl = scene(fin[1]), c.l_fin = scene(fin[2]);
-  }
-  if (fins_[1].present) {
-    const Vec2* fin = points_ + fins_[1].first;
-    c.jun_tr = scene(fin[0]), c.jun_br = scene(fin[1]), c.r_fin = scene(fin[2]);
+  for (int i = 0; i < kMaxFins; ++i) {
+    c.fins[i].present = fins_[i].present;
+    if (!fins_[i].present) continue;
+    const Vec2* fin = points_ + fins_[i].first;
+    c.fins[i].top = scene(fin[0]), c.fins[i].bottom = scene(fin[1]), c.fins[i].tip = scene(fin[2]);
   }
 }
 
@@ -283,8 +283,9 @@ void Retarget::pose(const Motion& motion, float dt_s, const Placement& placement
   pose_body(motion);
   const std::size_t body = body_count();
   junctions_->deform({points_, body}, {points_ + body, control_count_ - body});
-  if (fins_[0].present) pose_fin(0, motion.l_fin_angle);
-  if (fins_[1].present) pose_fin(1, motion.r_fin_angle);
+  for (int i = 0; i < kMaxFins; ++i) {
+    if (fins_[i].present) pose_fin(i, is_left(i) ? motion.l_fin_angle : motion.r_fin_angle);
+  }
   Frame frame{motion.centre * scale_, motion.dir_rad};
   smooth(frame, dt_s);
   mesh_->deform({points_, control_count_}, vertices_);

@@ -11,7 +11,7 @@
 // drawing's triangles bear (FinRange, found once), the fish's folded fin on the drawing's folded limit, amplitudes kept
 // where the drawing bears them and shrunk evenly where not. For a drawing is rooted, and at rest opened, otherwise than the
 // fish: the fish's own angle would run into the limit, where [F] section 6.3 calls distortion inevitable and a clamp would
-// hold the fin still. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it
+// hold the fin still. A second pair of fins follows the first: the fish has one. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it
 // turns as a fin and does not bend like a banana after its tip. The filter also runs over the centre and the direction,
 // which [F] leaves to its points in the world.
 // Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 37).
@@ -28,7 +28,8 @@ namespace nt {
 
 // [F] Eq 13: the simplified curve skeleton L, lengths in character units.
 struct BoneLengths {
-  float body_len = 0, head_len = 0, tail_len = 0, l_fin_len = 0, r_fin_len = 0;
+  float body_len = 0, head_len = 0, tail_len = 0;
+  float fin_len[kMaxFins] = {};
   float up_len[kMaxUpAxis] = {};
   float low_len[kMaxLowAxis] = {};
 };
@@ -75,13 +76,12 @@ class Retarget {
   // M0: the motion that poses the character as it was drawn (swimming up the screen, centre at 0), [F] section 6.2.
   Motion rest_motion() const;
   // Where the drawing's fins go while the fish's go through kFishFins; never wider than that.
-  FinRange left_fin_range() const { return fin_range_[0]; }
-  FinRange right_fin_range() const { return fin_range_[1]; }
+  FinRange fin_range(FinIndex fin) const { return fin_range_[fin]; }
 
  private:
   // The control points that are used, one after the other: the body, then per fin the two junctions, the tip, the rays.
   static constexpr std::size_t kFinRays = 5;
-  static constexpr std::size_t kMaxControls = 9 + kMaxUpAxis + kMaxLowAxis + 2 * kFinRays;
+  static constexpr std::size_t kMaxControls = 3 + kMaxUpAxis + kMaxLowAxis + kMaxFins * (3 + kFinRays);
   struct Fin {
     bool present = false;
     std::size_t first = 0;  // of its control points: junction at the top, at the bottom, tip, rays
@@ -95,7 +95,7 @@ class Retarget {
   };
   std::size_t body_count() const { return 3u + static_cast<std::size_t>(character_.u_num + character_.l_num); }
   void collect_rest();
-  void add_fin(int index, Vec2 top, Vec2 bottom, Vec2 tip, float length);
+  void add_fin(int index);
   void find_fin_range(int index);
   bool fin_fits(const Fin& fin, float open);
   void turn_fin(const Fin& fin, float open, float body_turn);
@@ -113,8 +113,8 @@ class Retarget {
   float last_dir_rad_ = 0;
   bool started_ = false;
   float scale_ = 1;  // character units per frame pixel
-  Fin fins_[2];
-  FinRange fin_range_[2];
+  Fin fins_[kMaxFins];
+  FinRange fin_range_[kMaxFins];
   std::size_t control_count_ = 0;
   Vec2 rest_[kMaxControls], points_[kMaxControls];  // character units, local frame
   std::span<Vec2> vertices_;

@@ -118,9 +118,9 @@ TEST_F(PictureCharacter, TheCarpsControlPointsAreInCharacterUnits) {
   EXPECT_NEAR(length(c.centre), 0, 1e-3f);
   EXPECT_GT(c.head.y, 300);
   EXPECT_LT(c.tail.y, -400);
-  EXPECT_LT(c.l_fin.x, -200);
-  EXPECT_GT(c.r_fin.x, 200);
-  EXPECT_GT(c.jun_tl.y, c.jun_bl.y);
+  EXPECT_LT(c.fins[kLeftFin].tip.x, -200);
+  EXPECT_GT(c.fins[kRightFin].tip.x, 200);
+  EXPECT_GT(c.fins[kLeftFin].top.y, c.fins[kLeftFin].bottom.y);
 }
 
 // The carp on the stage, not smoothed, upright, its head up.
@@ -159,7 +159,7 @@ class StagedCarp {
 
 TEST_F(PictureCharacter, TheCarpsFinsFoldAndOpenAsFarAsAFishs) {
   StagedCarp stage;
-  for (const FinRange r : {stage->left_fin_range(), stage->right_fin_range()}) {
+  for (const FinRange r : {stage->fin_range(kLeftFin), stage->fin_range(kRightFin)}) {
     EXPECT_LE(r.folded, 0.42f);
     EXPECT_GE(r.open, 1.5f - 1e-4f);
     EXPECT_GT(r.width(), 1.1f);  // of kFishFins' 1.2: amplitudes are kept
@@ -215,7 +215,7 @@ TEST_F(PictureCharacter, TheHeadGoesWhereTheUserSays) {
 
 TEST_F(PictureCharacter, WithoutFinsTheReportSaysSo) {
   const AuthoredCharacter a = author_picture(picture("leaf.png", leaf(4)), {});
-  EXPECT_FALSE(LoadedCharacter(a.bytes, "leaf", Limits{}).character().has_l_fin);
+  EXPECT_FALSE(LoadedCharacter(a.bytes, "leaf", Limits{}).character().rest.fins[kLeftFin].present);
   ASSERT_EQ(a.report.notes.size(), 2u);
   expect_one_line(a.report.notes[0], "left fin not seen");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small character made of a grid of triangles, as the bytes of a character file, without the app: a straight body of 150
-// units with a fin at either side. For tests of core.
+// units with a fin at either side; on demand a solid, all at one height. For tests of core.
 #pragma once
 #include <cstddef>
 #include <cstring>
@@ -18,14 +18,15 @@ namespace nt::test {
 
 class DrawnCharacter {
  public:
-  explicit DrawnCharacter(bool fins = true, int u_num = 3, int l_num = 15) {
+  explicit DrawnCharacter(bool fins = true, int u_num = 3, int l_num = 15, bool solid = false) {
     CharacterHeader h{};
     std::memcpy(h.magic, kCharacterMagic, sizeof h.magic);
     h.version = kCharacterVersion, h.header_bytes = sizeof h;
     h.u_num = static_cast<uint32_t>(u_num), h.l_num = static_cast<uint32_t>(l_num);
-    h.flags = fins ? kCharacterLeftFin | kCharacterRightFin : 0;
+    h.harmonics = 5, h.flags = kCharacterTailFin | (fins ? 3u : 0u) | (solid ? kCharacterSolid : 0u);
     std::vector<std::byte> out(sizeof h);
     const std::vector<Vec2> controls = control_points(fins, u_num, l_num);
+    const std::vector<float> confidences(controls.size(), 0.75f);
     std::vector<Vec2> vertices, texcoords;
     std::vector<uint32_t> triangles;
     grid(fins, vertices, triangles);
@@ -35,7 +36,14 @@ class DrawnCharacter {
     h.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
     h.texture_width = 4, h.texture_height = 2;
     h.controls_offset = append(out, std::as_bytes(std::span(controls)));
+    h.confidences_offset = append(out, std::as_bytes(std::span(confidences)));
     h.vertices_offset = append(out, std::as_bytes(std::span(vertices)));
+    if (solid) {
+      const std::vector<float> heights(vertices.size(), 5.0f);
+      const std::vector<Vec3> normals(vertices.size(), Vec3{0, 0, 1});
+      h.heights_offset = append(out, std::as_bytes(std::span(heights)));
+      h.normals_offset = append(out, std::as_bytes(std::span(normals)));
+    }
     h.texcoords_offset = append(out, std::as_bytes(std::span(texcoords)));
     h.triangles_offset = append(out, std::as_bytes(std::span(triangles)));
     h.texture_offset = append(out, std::as_bytes(std::span(texture)));
@@ -72,8 +80,9 @@ class DrawnCharacter {
     for (int i = 1; i <= l_num; ++i) c.push_back({0, kTail * static_cast<float>(i) / static_cast<float>(l_num + 1)});
     const Vec2 top{kHalfWidth, 26}, bottom{kHalfWidth, 6}, tip{50, -4};
     const auto left = [](Vec2 p) { return Vec2{-p.x, p.y}; };
-    const std::vector<Vec2> f{left(top), top, left(bottom), bottom, left(tip), tip};
+    const std::vector<Vec2> f{left(top), left(bottom), left(tip), top, bottom, tip};
     for (const Vec2 p : f) c.push_back(fins ? p : Vec2{});
+    c.resize(c.size() + 6);  // no second pair
     return c;
   }
   static bool inside(bool fins, Vec2 p) {

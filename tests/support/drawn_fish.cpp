@@ -13,7 +13,8 @@ namespace {
 
 constexpr uint32_t kUp = 3, kLow = 15;
 constexpr uint64_t kControlsAt = align_up(sizeof(CharacterHeader));
-constexpr uint64_t kVerticesAt = align_up(kControlsAt + kFishControls * sizeof(Vec2));
+constexpr uint64_t kConfidencesAt = align_up(kControlsAt + kFishControls * sizeof(Vec2));
+constexpr uint64_t kVerticesAt = align_up(kConfidencesAt + kFishControls * sizeof(float));
 constexpr uint64_t kTexcoordsAt = align_up(kVerticesAt + kFishVertices * sizeof(Vec2));
 constexpr uint64_t kTrianglesAt = align_up(kTexcoordsAt + kFishVertices * sizeof(Vec2));
 constexpr uint64_t kTextureAt = align_up(kTrianglesAt + 3 * kFishTriangles * sizeof(uint32_t));
@@ -25,9 +26,9 @@ std::vector<Vec2> control_points() {
   std::vector<Vec2> points{{0, 0}, {0, 80}, {0, -120}};
   for (uint32_t i = 1; i <= kUp; ++i) points.push_back({0, 20.0f * static_cast<float>(i)});
   for (uint32_t i = 1; i <= kLow; ++i) points.push_back({0, -7.5f * static_cast<float>(i)});
-  for (const Vec2 junction : {Vec2{-18, 40}, Vec2{18, 40}, Vec2{-18, 25}, Vec2{18, 25}}) points.push_back(junction);
-  points.push_back({-45, 15});
-  points.push_back({45, 15});
+  for (const Vec2 p : {Vec2{-18, 40}, Vec2{-18, 25}, Vec2{-45, 15}}) points.push_back(p);
+  for (const Vec2 p : {Vec2{18, 40}, Vec2{18, 25}, Vec2{45, 15}}) points.push_back(p);
+  points.resize(points.size() + 6);  // no second pair
   return points;
 }
 
@@ -62,6 +63,7 @@ DrawnFish::DrawnFish() : block_(kFileBytes) {
     }
   }
   put(bytes, kControlsAt, control_points());
+  put(bytes, kConfidencesAt, std::vector<float>(kFishControls, 1.0f));
   put(bytes, kVerticesAt, vertices);
   put(bytes, kTexcoordsAt, texcoords);
   put(bytes, kTrianglesAt, triangles());
@@ -72,10 +74,11 @@ DrawnFish::DrawnFish() : block_(kFileBytes) {
   h.version = kCharacterVersion;
   h.header_bytes = sizeof h;
   h.file_bytes = kFileBytes;
-  h.u_num = kUp, h.l_num = kLow, h.flags = kCharacterLeftFin | kCharacterRightFin;
+  h.u_num = kUp, h.l_num = kLow, h.harmonics = 5, h.flags = kCharacterTailFin | 3u;
   h.vertex_count = kFishVertices, h.triangle_count = kFishTriangles;
   h.texture_width = h.texture_height = 1;
-  h.controls_offset = kControlsAt, h.vertices_offset = kVerticesAt, h.texcoords_offset = kTexcoordsAt;
+  h.controls_offset = kControlsAt, h.confidences_offset = kConfidencesAt;
+  h.vertices_offset = kVerticesAt, h.texcoords_offset = kTexcoordsAt;
   h.triangles_offset = kTrianglesAt, h.texture_offset = kTextureAt;
   std::memcpy(bytes.data(), &h, sizeof h);
   h.checksum = hash_bytes(bytes.data() + kChecksumFrom, bytes.size() - kChecksumFrom);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small character for tests of core, made without a picture: a grid of vertices over a straight fish 200 units long,
-// with all 27 control points. Bytes as in docs/FORMATS.md, so it goes through open_character like any other.
+// with two fins of four: 33 control points. Bytes as in docs/FORMATS.md, so it goes through open_character like any other.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace nt::test {
 inline constexpr int kFishColumns = 9, kFishRows = 41;
 inline constexpr int kFishVertices = kFishColumns * kFishRows;
 inline constexpr int kFishTriangles = 2 * (kFishColumns - 1) * (kFishRows - 1);
-inline constexpr int kFishControls = 27;
+inline constexpr int kFishControls = 33;
 
 class DrawnFish {
  public:

@@ -41,12 +41,48 @@ TEST(Character, OpensWhatWasWritten) {
   const Character& c = opened.value();
   EXPECT_EQ(c.u_num, 3);
   EXPECT_EQ(c.l_num, 15);
-  EXPECT_TRUE(c.has_l_fin && c.has_r_fin);
+  EXPECT_TRUE(c.rest.fins[kLeftFin].present && c.rest.fins[kRightFin].present);
+  EXPECT_FALSE(c.rest.fins[kSecondLeftFin].present || c.rest.fins[kSecondRightFin].present);
+  EXPECT_TRUE(c.has_tail_fin);
+  EXPECT_FALSE(c.solid());
+  EXPECT_EQ(c.harmonics, 5);
+  EXPECT_EQ(c.confidences.size(), control_section_points(3, 15));
+  EXPECT_EQ(c.confidences[0], 0.75f);
   EXPECT_EQ(c.vertices.size(), c.texcoords.size());
   EXPECT_GT(c.triangles.size(), 300u);
-  EXPECT_LT(c.rest.l_fin.x, c.rest.r_fin.x);
+  EXPECT_LT(c.rest.fins[kLeftFin].tip.x, c.rest.fins[kRightFin].tip.x);
   EXPECT_EQ(c.texture.width, 4);
   EXPECT_EQ(c.texture.pixels[3], 255);
+}
+
+TEST(Character, ASolidHasHeightsAndNormals) {
+  DrawnCharacter drawn(true, 3, 15, true);
+  const auto opened = open(drawn.bytes());
+  ASSERT_TRUE(opened.ok()) << opened.status().message;
+  EXPECT_TRUE(opened.value().solid());
+  EXPECT_EQ(opened.value().heights.size(), opened.value().vertices.size());
+  EXPECT_EQ(opened.value().heights[0], 5.0f);
+  EXPECT_EQ(opened.value().normals[1].z, 1.0f);
+  const CharacterHeader h = drawn.header();
+  const auto refused = [](std::size_t offset, auto value) {
+    DrawnCharacter c(true, 3, 15, true);
+    put(c, offset, value);
+    return !open(c.bytes()).ok();
+  };
+  EXPECT_FALSE(refused(h.heights_offset, 6.0f));
+  EXPECT_TRUE(refused(h.heights_offset, 1e30f));
+  EXPECT_TRUE(refused(h.heights_offset, std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_TRUE(refused(h.normals_offset + 4, -1.5f));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, heights_offset), uint64_t{0}));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, flags), uint32_t{kCharacterTailFin}));
+}
+
+TEST(Character, AnOlderFileSaysSo) {
+  DrawnCharacter drawn;
+  put(drawn, offsetof(CharacterHeader, version), uint32_t{1});
+  const auto opened = open(drawn.bytes());
+  ASSERT_FALSE(opened.ok());
+  EXPECT_NE(std::string(opened.status().message).find("older"), std::string::npos);
 }
 
 TEST(Character, EveryByteFlippedIsRefused) {
@@ -70,7 +106,7 @@ TEST(Character, EveryTruncationIsRefused) {
 
 TEST(Character, ANewerFileSaysSo) {
   DrawnCharacter drawn;
-  put(drawn, offsetof(CharacterHeader, version), uint32_t{2});
+  put(drawn, offsetof(CharacterHeader, version), kCharacterVersion + 1);
   const auto opened = open(drawn.bytes());
   ASSERT_FALSE(opened.ok());
   EXPECT_NE(std::string(opened.status().message).find("newer"), std::string::npos);
@@ -94,7 +130,11 @@ TEST(Character, ValuesOutOfRangeAreRefusedBehindARightChecksum) {
   EXPECT_TRUE(refused(h.texcoords_offset, nan));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, u_num), uint32_t{0}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, l_num), uint32_t{33}));
-  EXPECT_TRUE(refused(offsetof(CharacterHeader, flags), uint32_t{4}));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, flags), uint32_t{0x40}));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, harmonics), uint32_t{17}));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, heights_offset), h.vertices_offset));
+  EXPECT_TRUE(refused(h.confidences_offset, 1.5f));
+  EXPECT_TRUE(refused(h.confidences_offset + 4, nan));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, vertex_count), uint32_t{0xffffffff}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, triangle_count), uint32_t{0x55555556}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, texture_width), uint32_t{8192}));
@@ -112,7 +152,7 @@ TEST(Character, LimitsAreNamed) {
   limits.max_triangles = static_cast<int>(drawn.header().triangle_count) - 1;
   EXPECT_NE(std::string(open(drawn.bytes(), limits).status().message).find("max_triangles"), std::string::npos);
   limits = {};
-  limits.max_control_points = 26;
+  limits.max_control_points = 32;
   EXPECT_NE(std::string(open(drawn.bytes(), limits).status().message).find("max_control_points"), std::string::npos);
 }
 
@@ -121,7 +161,7 @@ TEST(Character, SurvivesRandomDamage) {
   Random random(11);
   int opened_count = 0;
   for (int round = 0; round < 3000; ++round) {
-    DrawnCharacter c;
+    DrawnCharacter c(true, 3, 15, round % 3 == 0);
     const uint32_t changes = 1 + random.below(6);
     for (uint32_t k = 0; k < changes; ++k) {
       const bool header = random.below(2) == 0;
@@ -134,6 +174,8 @@ TEST(Character, SurvivesRandomDamage) {
     ++opened_count;
     float sum = 0;
     for (const uint32_t t : opened.value().triangles) sum += opened.value().vertices[t].x;
+    for (const float z : opened.value().heights) sum += z;
+    for (const float p : opened.value().confidences) sum += p;
     const Picture& p = opened.value().texture;
     EXPECT_LE(static_cast<std::size_t>(p.stride) * static_cast<std::size_t>(p.height), c.bytes().size());
     EXPECT_EQ(sum - sum, 0.0f);

@@ -75,8 +75,8 @@ TEST(Retarget, BoneLengthsAddUpToTheAxis) {
   EXPECT_NEAR(l.body_len, 150.0f, 1e-3f);
   EXPECT_NEAR(l.head_len, 14.0f, 1e-4f);
   EXPECT_NEAR(l.tail_len, 94.0f / 16, 1e-4f);
-  EXPECT_NEAR(l.l_fin_len, l.r_fin_len, 1e-4f);
-  EXPECT_NEAR(l.l_fin_len, length(Vec2{36, 30}), 1e-3f);
+  EXPECT_NEAR(l.fin_len[kLeftFin], l.fin_len[kRightFin], 1e-4f);
+  EXPECT_NEAR(l.fin_len[kLeftFin], length(Vec2{36, 30}), 1e-3f);
 }
 
 TEST(Retarget, TheRestMotionGivesTheRestPose) {
@@ -105,7 +105,7 @@ TEST(Retarget, CentreDirectionScaleAndPlacement) {
   EXPECT_NEAR(c.centre.y, 20 + 3 * 50, 1e-3f);
   EXPECT_NEAR(c.head.x - c.centre.x, 3 * 56, 0.01f);
   EXPECT_NEAR(c.head.y - c.centre.y, 0, 0.01f);
-  EXPECT_LT(c.l_fin.y, c.r_fin.y);  // swimming right on the screen its left is up
+  EXPECT_LT(c.fins[kLeftFin].tip.y, c.fins[kRightFin].tip.y);  // swimming right on the screen its left is up
 }
 
 TEST(Retarget, BonesKeepTheirLengthsAndTakeTheMotionsAngles) {
@@ -141,11 +141,11 @@ TEST(Retarget, NoFinAngleTurnsATriangleOver) {
 
 // How far the right fin stands open in the last pose of an upright fish; scene: y down.
 float right_open(const Retarget& retarget) {
-  const Vec2 fin = retarget.control_points().r_fin - retarget.control_points().jun_tr;
+  const Vec2 fin = retarget.control_points().fins[kRightFin].tip - retarget.control_points().fins[kRightFin].top;
   return det::atan2(fin.x, fin.y);
 }
 float left_open(const Retarget& retarget) {
-  const Vec2 fin = retarget.control_points().l_fin - retarget.control_points().jun_tl;
+  const Vec2 fin = retarget.control_points().fins[kLeftFin].tip - retarget.control_points().fins[kLeftFin].top;
   return det::atan2(-fin.x, fin.y);
 }
 
@@ -156,10 +156,10 @@ TEST(Retarget, AFoldedFishFinFoldsTheDrawnOneToItsLimitOnItsOwnSide) {
     m.l_fin_angle = kFoldedLeftFin + beyond;
     m.r_fin_angle = kFoldedRightFin - beyond;
     stage->pose(m, 0, {});
-    EXPECT_NEAR(left_open(*stage), stage->left_fin_range().folded, 1e-3f) << beyond;
-    EXPECT_NEAR(right_open(*stage), stage->right_fin_range().folded, 1e-3f) << beyond;
+    EXPECT_NEAR(left_open(*stage), stage->fin_range(kLeftFin).folded, 1e-3f) << beyond;
+    EXPECT_NEAR(right_open(*stage), stage->fin_range(kRightFin).folded, 1e-3f) << beyond;
   }
-  EXPECT_LT(stage->left_fin_range().folded, 0.7f);  // at rest 0.88: back by atan2(30, 36)
+  EXPECT_LT(stage->fin_range(kLeftFin).folded, 0.7f);  // at rest 0.88: back by atan2(30, 36)
 }
 
 TEST(Retarget, AFishFinThatStandsOutOpensTheDrawnOneToItsLimit) {
@@ -169,14 +169,14 @@ TEST(Retarget, AFishFinThatStandsOutOpensTheDrawnOneToItsLimit) {
     m.l_fin_angle = -det::kHalfPi - open;
     m.r_fin_angle = -det::kHalfPi + open;
     stage->pose(m, 0, {});
-    EXPECT_NEAR(left_open(*stage), stage->left_fin_range().open, 1e-3f) << open;
-    EXPECT_NEAR(right_open(*stage), stage->right_fin_range().open, 1e-3f) << open;
+    EXPECT_NEAR(left_open(*stage), stage->fin_range(kLeftFin).open, 1e-3f) << open;
+    EXPECT_NEAR(right_open(*stage), stage->fin_range(kRightFin).open, 1e-3f) << open;
   }
 }
 
 TEST(Retarget, FinAmplitudesAreKeptInTheSameProportionAllOverTheRange) {
   Stage stage;
-  const FinRange range = stage->right_fin_range();
+  const FinRange range = stage->fin_range(kRightFin);
   const float slope = range.width() / kFishFins.width();
   EXPECT_GT(slope, 0.6f);
   EXPECT_LE(slope, 1.0f + 1e-5f);
@@ -196,15 +196,16 @@ TEST(Retarget, AFinAngleMovesItsTipAndNotTheOtherFins) {
   m.r_fin_angle += 0.1f;
   stage->pose(m, 0, {});
   const ControlPoints& after = stage->control_points();
-  const float slope = stage->right_fin_range().width() / kFishFins.width();
-  EXPECT_NEAR(length(after.r_fin - before.r_fin), stage->lengths().r_fin_len * 0.1f * slope, 0.02f);
-  EXPECT_LT(after.r_fin.y, before.r_fin.y);  // opens towards the head
-  EXPECT_NEAR(length(after.l_fin - before.l_fin), 0.0f, 1e-3f);
+  const float slope = stage->fin_range(kRightFin).width() / kFishFins.width();
+  EXPECT_NEAR(length(after.fins[kRightFin].tip - before.fins[kRightFin].tip),
+              stage->lengths().fin_len[kRightFin] * 0.1f * slope, 0.02f);
+  EXPECT_LT(after.fins[kRightFin].tip.y, before.fins[kRightFin].tip.y);  // opens towards the head
+  EXPECT_NEAR(length(after.fins[kLeftFin].tip - before.fins[kLeftFin].tip), 0.0f, 1e-3f);
 }
 
 TEST(Retarget, FinRangesHoldTheRestPose) {
   Stage stage;
-  for (const FinRange r : {stage->left_fin_range(), stage->right_fin_range()}) {
+  for (const FinRange r : {stage->fin_range(kLeftFin), stage->fin_range(kRightFin)}) {
     EXPECT_GE(r.folded, kFishFins.folded);
     EXPECT_LT(r.folded, 0.8f);
     EXPECT_GT(r.open, 1.0f);

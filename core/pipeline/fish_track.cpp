@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/pipeline/fish_track.h"
+
+#include "core/base/det_math.h"
+#include "core/outline/moments.h"
+#include "core/outline/stations.h"
+#include "core/outline/trace.h"
+#include "core/segment/clean.h"
+
+namespace nt {
+namespace {
+
+constexpr float kRingHole = 0.1f;  // share of the outline: eyes of the ground's tone are 2 %, a ring's hole much more
+constexpr int kForgetOrder = 15;   // frames without a pose after which the order of head and tail is open again
+constexpr float kTravelFrames = 5.0f;
+
+}  // namespace
+
+bool FishTrack::layout(Arena& arena, const Limits& limits, int width, int height) {
+  const int words = words_for(width);
+  auto mask = arena.take<uint64_t>(static_cast<std::size_t>(words) * static_cast<std::size_t>(height));
+  protect = {mask.data(), width, height, words};
+  contour = arena.take<Vec2>(static_cast<std::size_t>(max_int(limits.max_contour_points, 0)));
+  smooth = arena.take<Vec2>(2 * kStations);
+  return !arena.full();
+}
+
+PoseStatus FishTrack::follow(const CaptureTools& tools, const TargetChoice& choice) {
+  if (choice.blob < 0) {
+    if (choice.status == PoseStatus::absent) unprotect();
+    miss(choice.status);
+    return choice.status;
+  }
+  PoseStatus status = outline(tools, choice.blob);
+  if (status == PoseStatus::ok && choice.status != PoseStatus::ok) status = choice.status;
+  if (status == PoseStatus::ok) status = find_pose(tools);
+  if (status != PoseStatus::ok) miss(status);
+  return status;
+}
+
+void FishTrack::miss(PoseStatus status) {
+  ++frames_without_pose_;
+  pose.status = status;
+  pose.confidence = {};
+  contour_count = 0;
+}
+
+// The blob's outline into `contour`; ok, or why it can give no pose.
+PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
+  const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(index)];
+  const LumaView luma = tools.frame.luma;
+  Refine& refine = tools.refine;
+  const FishMask fish = refine.fish(luma, tools.background.estimate(), tools.background.noise_sigma(), blob, index,
+                                    tools.blobs.runs(), tools.settings.shadows && tools.background.can_have_shadows());
+  if (refine.runs_dropped()) tools.report.flags |= kRunsDropped;
+  if (refine.blobs_dropped()) tools.report.flags |= kBlobsDropped;
+  if (fish.shadow_removed) tools.report.flags |= kShadowRemoved;
+  protect_from_learning(fish);
+  tools.clock.lap(Stage::refine);
+  const int count = trace_outline(fish.mask, fish.box.x0, fish.box.y0, contour);
+  if (count < 0) tools.report.flags |= kContourCut;
+  contour_count = max_int(count, 0);
+  contour_high_water = max_int(contour_high_water, contour_count);
+  const bool cut = measure_contour(luma.width, luma.height);
+  tools.clock.lap(Stage::outline);
+  const float enclosed = enclosed_px();
+  if (cut) return PoseStatus::partial;
+  if (enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed) return PoseStatus::occluded;
+  return contour_count > 0 ? PoseStatus::ok : PoseStatus::lost;
+}
+
+// Its box; true when the fish may be cut by the frame's edge: two pixels short of it, because its rim is half-transparent.
+bool FishTrack::measure_contour(int width, int height) {
+  const float right = static_cast<float>(width - 3), bottom = static_cast<float>(height - 3);
+  bool cut = false;
+  if (contour_count > 0) box = {width, height, 0, 0};
+  for (const Vec2 p : points()) {
+    const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
+    box.x0 = min_int(box.x0, x), box.x1 = max_int(box.x1, x + 1);
+    box.y0 = min_int(box.y0, y), box.y1 = max_int(box.y1, y + 1);
+    cut |= p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom;
+  }
+  return cut;
+}
+
+// By Pick's theorem an outline of n border pixels and area A holds A + n / 2 + 1 pixels; what the mask lacks is a hole.
+float FishTrack::enclosed_px() const {
+  return det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
+}
+
+LandmarkHints FishTrack::hints() const {
+  LandmarkHints hints;
+  hints.has_last = has_last_;
+  const Vec2 moved = target.velocity() * static_cast<float>(frames_without_pose_ + 1);
+  hints.last_head = last_head_ + moved, hints.last_tail = last_tail_ + moved;
+  hints.head_log_odds = head_log_odds_;
+  hints.travel = has_last_ ? travel_ : target.velocity() * kTravelFrames;
+  return hints;
+}
+
+PoseStatus FishTrack::find_pose(const CaptureTools& tools) {
+  // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
+  if (target.changed() || frames_without_pose_ > kForgetOrder) has_last_ = false, head_log_odds_ = 0;
+  if (target.changed()) init_len = 0;
+  Landmarks& landmarks = tools.landmarks;
+  const bool found = landmarks.find(points(), hints(), pose);
+  tools.clock.lap(Stage::landmarks);
+  if (!found || !target.observe(box, pose.centre, landmarks.area_px(), pose.axis_len)) return PoseStatus::occluded;
+  if (landmarks.swapped()) tools.report.flags |= kHeadTailSwapped;
+  pose.status = PoseStatus::ok;
+  remember(landmarks);
+  motion = motion_from_pose(pose, tools.frame.timestamp_ns, has_motion ? &motion : nullptr);
+  has_motion = true;
+  tools.clock.lap(Stage::motion);
+  return PoseStatus::ok;
+}
+
+void FishTrack::remember(const Landmarks& landmarks) {
+  head_log_odds_ = landmarks.head_log_odds();
+  // Travel over about the last kTravelFrames, as a running sum that forgets.
+  travel_ = has_last_ ? travel_ * (1.0f - 1.0f / kTravelFrames) + (pose.centre - last_centre_) : Vec2{};
+  last_head_ = pose.head, last_tail_ = pose.tail, last_centre_ = pose.centre;
+  has_last_ = true;
+  frames_without_pose_ = 0;
+  if (init_len == 0) init_len = pose.axis_len;
+  const std::span<const Vec2> reconstruction = landmarks.smooth_contour();
+  for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = reconstruction[i];
+}
+
+// What is around the fish becomes next frame's `protect`.
+void FishTrack::protect_from_learning(const FishMask& fish) {
+  clear_mask(protect);
+  protected_now = true;
+  for (int y = 0; y < fish.around.height; ++y) {
+    const uint64_t* from = fish.around.row(y);
+    uint64_t* to = protect.row(y + fish.box.y0) + fish.box.x0 / 64;
+    for (int i = 0; i < fish.around.words_per_row; ++i) to[i] = from[i];
+  }
+}
+
+}  // namespace nt

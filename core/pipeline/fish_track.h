@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// One fish that is followed: everything that capture remembers of it from frame to frame, and its way from a blob to a
+// pose and a motion.
+//
+// blobs of one frame -> this fish's outline, pose, motion, or a status that says why there is none.
+// What holds for the whole frame (background, blobs, the scratch of refine and landmarks) is lent by CaptureTools, so a
+// fish costs its contour (8 bytes a point of Limits::max_contour_points) and a few kilobytes.
+// Frame of reference: pixels of the frame handed in.
+#pragma once
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/base/stage_clock.h"
+#include "core/frame/frame.h"
+#include "core/landmarks/landmarks.h"
+#include "core/motion/motion.h"
+#include "core/pipeline/pipeline.h"
+#include "core/segment/background.h"
+#include "core/segment/refine.h"
+#include "core/segment/target.h"
+
+namespace nt {
+
+// What the fish of one frame share.
+struct CaptureTools {
+  const Frame& frame;
+  const CaptureSettings& settings;
+  Background& background;
+  const Blobs& blobs;
+  Refine& refine;
+  Landmarks& landmarks;
+  StageClock& clock;
+  StepReport& report;
+};
+
+struct FishTrack {
+  Target target;
+  FishPose pose;  // of the last step
+  Motion motion;  // of the last step with a pose
+  bool has_motion = false;
+  float init_len = 0;          // axis length in the first frame with a pose, pixels
+  std::span<Vec2> contour;     // room for Limits::max_contour_points
+  std::span<Vec2> smooth;      // elliptic Fourier reconstruction; means something with a pose
+  int contour_count = 0;       // 0 without a pose
+  int contour_high_water = 0;  // the most points of one frame
+  Box box;                     // of the contour
+  BitMask protect;             // whole frame; what of it must not be learned as background
+  bool protected_now = false;  // `protect` holds a fish
+
+  bool layout(Arena& arena, const Limits& limits, int width, int height);
+  // One frame: the status is also the pose's. `choice` is the target's.
+  PoseStatus follow(const CaptureTools& tools, const TargetChoice& choice);
+  // A frame that gives no pose.
+  void miss(PoseStatus status);
+  void unprotect() { protected_now = false; }
+
+ private:
+  PoseStatus outline(const CaptureTools& tools, int blob);
+  bool measure_contour(int width, int height);
+  float enclosed_px() const;
+  PoseStatus find_pose(const CaptureTools& tools);
+  LandmarkHints hints() const;
+  void remember(const Landmarks& landmarks);
+  void protect_from_learning(const FishMask& fish);
+  std::span<const Vec2> points() const { return contour.first(static_cast<std::size_t>(contour_count)); }
+
+  Vec2 last_head_, last_tail_, last_centre_, travel_;
+  float head_log_odds_ = 0;
+  bool has_last_ = false;
+  int frames_without_pose_ = 0;
+};
+
+}  // namespace nt

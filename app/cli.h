@@ -21,6 +21,7 @@ Action parse_command_line(int argc, const char* const* argv);
 void add_live(CLI::App& app, Action& action);
 void add_capture(CLI::App& app, Action& action);
 void add_animate(CLI::App& app, Action& action);
+void add_takes(CLI::App& app, Action& action);
 void add_character(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);

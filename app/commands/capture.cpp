@@ -2,6 +2,7 @@
 // neontetra capture: no window; poses to CSV, overlay video, report.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,8 @@
 #include "app/export/report.h"
 #include "app/progress.h"
 #include "app/session.h"
+#include "app/take/from_session.h"
+#include "app/take/recorder.h"
 #include "app/ui/overlay.h"
 #include "platform/sim/sim_camera.h"
 
@@ -20,7 +23,7 @@ namespace {
 
 struct Options {
   CaptureOptions capture;
-  std::string csv, truth, overlay, json, contact_sheet;
+  std::string csv, truth, overlay, json, contact_sheet, take;
 };
 
 SimCamera& simulated(Session& session) {
@@ -36,9 +39,18 @@ void add_truth(PoseCsv& truth, Session& session) {
   truth.add(session.frame_index(), session.frame().timestamp_ns, pose);
 }
 
+std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+void finish(TakeRecorder& take) {
+  take.finish();
+  if (take.not_recorded() > 0)
+    std::fprintf(stderr, "take: %lld frames are missing, the disk was too slow for them\n",
+                 static_cast<long long>(take.not_recorded()));
+}
+
 void capture(const Options& options) {
   check_outputs(inputs_of(options.capture),
-                {options.csv, options.truth, options.overlay, options.json, options.contact_sheet});
+                {options.csv, options.truth, options.overlay, options.json, options.contact_sheet, options.take});
   Session session(options.capture);
   std::optional<PoseCsv> csv, truth;
   if (!options.csv.empty()) csv.emplace(options.csv, session.scale());
@@ -46,6 +58,8 @@ void capture(const Options& options) {
     simulated(session);
     truth.emplace(options.truth, 1.0f);  // the tank knows it in its own pixels: the source's
   }
+  std::optional<TakeRecorder> take;
+  if (!options.take.empty()) take.emplace(options.take, take_info(session, take_name(options.take)));
   const Pane pane = pane_for(session.info().width, session.info().height);
   Film film(options.overlay, options.contact_sheet, pane.width, pane.height, session.info().fps);
   Overlay overlay(pane);
@@ -54,6 +68,7 @@ void capture(const Options& options) {
     Progress progress(session.info().frame_count);
     while (session.step()) {
       if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
+      if (take) take->add(take_frame(session));
       if (truth) add_truth(*truth, session);
       if (film.wanted()) {
         overlay.update(session);
@@ -67,6 +82,7 @@ void capture(const Options& options) {
   expect_frames(session);
   if (csv) csv->close();
   if (truth) truth->close();
+  if (take) finish(*take);
   film.finish();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
   std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
@@ -79,6 +95,8 @@ void add_capture(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
   command->add_option("--csv", options->csv, "one row of pose a frame ('-' = standard output)")->type_name("FILE");
+  command->add_option("--take", options->take, "a take: motion and poses of every frame, to play and edit later")
+      ->type_name("FILE.take");
   command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")
       ->type_name("FILE.mp4");
   command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");

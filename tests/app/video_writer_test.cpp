@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
-#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +15,7 @@
 #include <opencv2/videoio.hpp>
 #include <random>
 
+#include "tests/support/small_disk.h"
 #include "tests/support/temp_dir.h"
 
 namespace nt {
@@ -171,21 +171,6 @@ std::vector<uint8_t> noise_frame(std::mt19937& random) {
 void limit_file_size(const std::string&, rlim_t bytes) {
   const rlimit size{bytes, bytes};
   setrlimit(RLIMIT_FSIZE, &size);
-}
-
-constexpr int kMayNotMount = 77;
-
-// A disk of that size on top of the folder, seen by this process alone.
-void mount_small_disk(const std::string& folder, rlim_t bytes) {
-  const std::string options = "size=" + std::to_string(bytes);
-  const std::string user = "0 " + std::to_string(geteuid()) + " 1", group = "0 " + std::to_string(getegid()) + " 1";
-  const bool own = unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0;
-  write_text("/proc/self/setgroups", "deny");
-  write_text("/proc/self/uid_map", user);
-  write_text("/proc/self/gid_map", group);
-  if (!own || mount("tmpfs", folder.c_str(), "tmpfs", 0, options.c_str()) != 0) {
-    std::_Exit(kMayNotMount);
-  }
 }
 
 struct Told {

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// neontetra takes: what has been recorded; rename, trim, join, delete, repair.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "app/cli.h"
+#include "app/export/report.h"
+#include "app/take/take.h"
+#include "app/text_file.h"
+
+namespace nt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExtension = ".take";
+constexpr const char* kBin = ".deleted-takes";
+
+struct Options {
+  std::vector<std::string> paths{"."};
+  bool json = false, discard = false, repair = false;
+  std::string name, tags, notes, trim, join;
+};
+
+// Folders stand for the takes in them.
+std::vector<std::string> files_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+      if (entry.path().extension() == kExtension) files.push_back(entry.path().lexically_normal().string());
+    }
+    if (error) throw UserError(path + ": cannot look into the folder: " + error.message());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Take open(const std::string& path, Take::Access access) {
+  Take take = Take::open(path, access);
+  if (take.recovered())
+    std::fprintf(stderr, "%s: its recording was cut off; recovered, %.1f s are there\n", path.c_str(),
+                 take.summary().seconds);
+  return take;
+}
+
+Json as_json(const std::string& path, const TakeSummary& take) {
+  return {{"file", path},
+          {"name", take.info.name},
+          {"created", take.info.created},
+          {"seconds", take.seconds},
+          {"frames", take.frames},
+          {"frames_with_pose", take.posed},
+          {"fish", take.fish},
+          {"camera", take.info.camera},
+          {"working_size", {{"width", take.info.width}, {"height", take.info.height}}},
+          {"fps", take.info.fps},
+          {"character", take.info.character},
+          {"tags", take.info.tags},
+          {"notes", take.info.notes}};
+}
+
+void list(const std::vector<std::string>& files, bool json) {
+  Json all = Json::array();
+  std::string text, bad;
+  for (const std::string& file : files) {
+    TakeSummary take;
+    try {
+      take = open(file, Take::Access::read).summary();
+    } catch (const UserError& error) {  // one bad file does not hide the others
+      if (!bad.empty()) std::fprintf(stderr, "%s\n", bad.c_str());
+      bad = error.what();
+      continue;
+    }
+    if (json) {
+      all.push_back(as_json(file, take));
+      continue;
+    }
+    char line[160];
+    std::snprintf(line, sizeof line, "  %7.1f s  %6lld frames, %lld with a pose  %d fish  %s", take.seconds,
+                  static_cast<long long>(take.frames), static_cast<long long>(take.posed), take.fish,
+                  take.info.created.c_str());
+    text += file + line + "  " + take.info.name + (take.info.tags.empty() ? "" : "  [" + take.info.tags + "]") + "\n";
+  }
+  write_text("-", json ? pretty(all) : text);
+  if (!bad.empty()) throw UserError(bad);
+}
+
+void change_info(const std::vector<std::string>& files, const Options& options) {
+  for (const std::string& file : files) {
+    Take take = open(file, Take::Access::edit);
+    TakeInfo info = take.info();
+    if (!options.name.empty()) info.name = options.name;
+    if (!options.tags.empty()) info.tags = options.tags;
+    if (!options.notes.empty()) info.notes = options.notes;
+    take.set_info(info);
+  }
+}
+
+void trim(const std::vector<std::string>& files, const std::string& range) {
+  long long first = 0, last = 0;
+  char end = 0;
+  if (std::sscanf(range.c_str(), "%lld:%lld%c", &first, &last, &end) != 2 || first < 0 || last < first)
+    throw UserError("--trim: expected FIRST:LAST, frame numbers from 0, got '" + range + "'", 2);
+  for (const std::string& file : files) {
+    Take take = open(file, Take::Access::edit);
+    const int64_t frames = take.summary().frames;
+    if (first >= frames)
+      throw UserError(file + ": has " + std::to_string(frames) + " frames; --trim " + range + " would leave none");
+    take.trim(first, last);
+  }
+}
+
+void join(const std::vector<std::string>& files, const std::string& out) {
+  if (files.size() < 2) throw UserError("--join: name at least two takes", 2);
+  std::vector<TakeFrame> frames;
+  TakeInfo info;
+  int64_t next_frame = 0, next_time_ns = 0;
+  for (const std::string& file : files) {
+    Take take = open(file, Take::Access::read);
+    if (frames.empty()) info = take.info();
+    if (take.info().width != info.width || take.info().height != info.height || take.info().u_num != info.u_num ||
+        take.info().l_num != info.l_num)
+      throw UserError(file + ": another working size or number of bones than " + files.front() +
+                      "; they cannot be joined");
+    const auto period_ns = static_cast<int64_t>(1e9 / take.info().fps);
+    int64_t last_frame = next_frame, last_time_ns = next_time_ns;
+    for (const int fish : take.fish()) {
+      const std::vector<TakeFrame> more = take.frames(fish);
+      for (TakeFrame frame : more) {
+        frame.motion.time_ns += next_time_ns - more.front().motion.time_ns;
+        frame.frame += next_frame;
+        last_frame = std::max(last_frame, frame.frame + 1);
+        last_time_ns = std::max(last_time_ns, frame.motion.time_ns + period_ns);
+        frames.push_back(frame);
+      }
+    }
+    next_frame = last_frame, next_time_ns = last_time_ns;
+  }
+  Take joined = Take::create(out, info);
+  joined.append(frames);
+  joined.close();
+}
+
+// Into a folder beside it, from where it can be taken back.
+void discard(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    open(file, Take::Access::edit);  // nobody is writing to it
+    const fs::path bin = fs::path(file).parent_path() / kBin;
+    fs::create_directories(bin);
+    fs::path to = bin / fs::path(file).filename();
+    for (int n = 2; fs::exists(to); ++n)
+      to = bin / (fs::path(file).stem().string() + "-" + std::to_string(n) + kExtension);
+    std::error_code error;
+    fs::rename(file, to, error);
+    if (error) throw UserError(file + ": cannot be moved to " + to.string() + ": " + error.message());
+    std::fprintf(stderr, "%s: moved to %s\n", file.c_str(), to.c_str());
+  }
+}
+
+void repair(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const std::string to = fs::path(file).replace_extension().string() + "-repaired" + kExtension;
+    const int64_t frames = repair_take(file, to);
+    std::fprintf(stderr, "%s: %lld frames saved to %s; the damaged file is left as it is\n", file.c_str(),
+                 static_cast<long long>(frames), to.c_str());
+  }
+}
+
+void takes(const Options& options) {
+  const int actions = static_cast<int>(options.discard) + static_cast<int>(options.repair) +
+                      static_cast<int>(!options.trim.empty()) + static_cast<int>(!options.join.empty());
+  if (actions > 1) throw UserError("takes: one of --trim, --join, --delete, --repair at a time", 2);
+  const std::vector<std::string> files = files_of(options.paths);
+  const bool changes = !options.name.empty() || !options.tags.empty() || !options.notes.empty();
+  if (changes) change_info(files, options);
+  if (options.discard) discard(files);
+  else if (options.repair) repair(files);
+  else if (!options.trim.empty()) trim(files, options.trim);
+  else if (!options.join.empty()) join(options.paths, options.join);
+  else if (!changes) list(files, options.json);
+}
+
+}  // namespace
+
+void add_takes(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("takes", "List what has been recorded; rename, trim, join, delete, repair");
+  auto options = std::make_shared<Options>();
+  command->add_option("paths", options->paths, "takes, or folders of them (default: this folder)")
+      ->type_name("FILE...");
+  command->add_flag("--json", options->json, "the list for machines");
+  command->add_option("--name", options->name, "give a take this name")->type_name("TEXT");
+  command->add_option("--tags", options->tags, "its tags, separated by commas")->type_name("TEXT");
+  command->add_option("--notes", options->notes, "its notes")->type_name("TEXT");
+  command->add_option("--trim", options->trim, "keep these frames only")->type_name("FIRST:LAST");
+  command->add_option("--join", options->join, "one after the other, in the order named, into a new take")
+      ->type_name("FILE");
+  command->add_flag("--delete", options->discard, "move to the folder .deleted-takes beside them");
+  command->add_flag("--repair", options->repair, "save what can be read of a damaged take to FILE-repaired.take");
+  command->footer("Example: neontetra takes --trim 30:600 noon.take");
+  command->callback([&action, options] { action = [options] { takes(*options); }; });
+}
+
+}  // namespace nt

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/take/from_session.h"
+
+#include <ctime>
+
+namespace nt {
+namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+TakeInfo take_info(const Session& session, const std::string& name) {
+  const CameraInfo& camera = session.info();
+  TakeInfo info;
+  info.name = name, info.camera = camera.name, info.created = utc_now();
+  info.source_width = camera.source_width, info.source_height = camera.source_height;
+  info.width = camera.width, info.height = camera.height;
+  info.fps = camera.fps;
+  return info;
+}
+
+TakeFrame take_frame(Session& session) {
+  Capture& capture = session.capture();
+  TakeFrame frame;
+  frame.frame = session.frame_index();
+  frame.flags = session.report().flags;
+  frame.init_len = capture.init_len();
+  frame.motion = capture.motion();
+  frame.pose = capture.pose();
+  frame.motion.time_ns = session.frame().timestamp_ns;
+  frame.motion.status = frame.pose.status;
+  return frame;
+}
+
+}  // namespace nt

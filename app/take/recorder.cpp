@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/take/recorder.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "platform/camera.h"
+
+namespace nt {
+
+TakeRecorder::TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms)
+    : take_(Take::create(path, info)), ring_(kRingFrames), period_ms_(period_ms) {
+  batch_.reserve(kRingFrames);
+  thread_ = std::thread([this] { store(); });
+}
+
+TakeRecorder::~TakeRecorder() {
+  try {
+    finish();
+  } catch (const UserError&) {
+    // Whoever wanted to know has asked finish() itself.
+  }
+}
+
+void TakeRecorder::add(const TakeFrame& frame) {
+  const uint64_t written = written_.load(std::memory_order_relaxed);
+  if (failed_.load(std::memory_order_relaxed) || written - stored_.load(std::memory_order_acquire) >= kRingFrames) {
+    ++not_recorded_;
+    return;
+  }
+  ring_[written % kRingFrames] = frame;
+  written_.store(written + 1, std::memory_order_release);
+  if (half_full()) wake_.notify_one();
+}
+
+bool TakeRecorder::half_full() const { return written_.load() - stored_.load() >= kRingFrames / 2; }
+
+void TakeRecorder::commit() {
+  const uint64_t written = written_.load(std::memory_order_acquire);
+  uint64_t stored = stored_.load(std::memory_order_relaxed);
+  batch_.clear();
+  for (; stored < written; ++stored) batch_.push_back(ring_[stored % kRingFrames]);
+  stored_.store(stored, std::memory_order_release);
+  take_.append(batch_);
+}
+
+void TakeRecorder::store() {
+  try {
+    for (bool last = false; !last;) {
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, std::chrono::milliseconds(period_ms_), [this] { return stop_ || half_full(); });
+        last = stop_;
+      }
+      commit();
+    }
+    take_.close();
+  } catch (const UserError& error) {
+    const std::lock_guard lock(mutex_);
+    failure_ = error.what();
+    failed_ = true;
+  }
+}
+
+std::string TakeRecorder::failure() {
+  if (!failed_.load()) return {};
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void TakeRecorder::finish() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  if (failed_) throw UserError(failure_);
+}
+
+void PreRecord::add(const TakeFrame& frame) {
+  if (ring_.empty()) return;
+  ring_[count_ % ring_.size()] = frame;
+  ++count_;
+}
+
+void PreRecord::give_to(TakeRecorder& recorder) const {
+  const uint64_t held = std::min<uint64_t>(count_, ring_.size());
+  for (uint64_t i = count_ - held; i < count_; ++i) recorder.add(ring_[i % ring_.size()]);
+}
+
+}  // namespace nt

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "app/author/ground.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -72,28 +73,7 @@ bool has_transparency(const cv::Mat& alpha) {
   return cv::countNonZero(alpha < kOpaque) > static_cast<int>(alpha.total() / 100);
 }
 
-// [F] section 5: edges, closed and filled. The closing bridges gaps of up to 1/60 of the picture.
-cv::Mat mask_from_edges(const cv::Mat& rgba) {
-  cv::Mat grey, edges, unused;
-  cv::cvtColor(rgba, grey, cv::COLOR_RGBA2GRAY);
-  cv::GaussianBlur(grey, grey, {5, 5}, 1.2);
-  const double otsu = cv::threshold(grey, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
-  const double high = std::clamp(otsu * 0.5, 30.0, 120.0);
-  cv::Canny(grey, edges, high * 0.4, high);
-  const int gap = std::max(2, std::max(rgba.cols, rgba.rows) / 120);
-  cv::copyMakeBorder(edges, edges, gap, gap, gap, gap, cv::BORDER_CONSTANT, 0);
-  cv::morphologyEx(edges, edges, cv::MORPH_CLOSE, disc(gap));
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(edges, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-  cv::Mat mask = cv::Mat::zeros(edges.size(), CV_8U);
-  cv::drawContours(mask, contours, -1, 255, cv::FILLED);
-  mask = mask(cv::Rect(gap, gap, rgba.cols, rgba.rows)).clone();
-  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, disc(2));
-  return mask;
-}
-
-cv::Mat figure_mask(const cv::Mat& rgba, bool from_alpha) {
-  if (!from_alpha) return mask_from_edges(rgba);
+cv::Mat opaque_pixels(const cv::Mat& rgba) {
   cv::Mat alpha;
   cv::extractChannel(rgba, alpha, 3);
   return alpha >= kOpaque;
@@ -165,7 +145,14 @@ Figure load_figure(const std::string& path) {
   cv::Mat alpha;
   cv::extractChannel(rgba, alpha, 3);
   figure.from_alpha = has_transparency(alpha);
-  std::vector<cv::Point> outline = largest_outline(figure_mask(rgba, figure.from_alpha), figure.figures);
+  cv::Mat found;
+  if (figure.from_alpha) {
+    found = opaque_pixels(rgba);
+  } else {
+    const Ground ground = remove_ground(rgba);
+    found = ground.mask, rgba = ground.pixels, figure.paper = ground.paper;
+  }
+  std::vector<cv::Point> outline = largest_outline(found, figure.figures);
   const std::string nothing =
       path + ": no figure found; use a picture with transparency around the figure, or a plain background";
   if (outline.empty()) throw UserError(nothing);

@@ -4,8 +4,8 @@
 // Input: any picture OpenCV reads. Output: RGBA pixels cropped to the figure with a margin, scaled so that the longer side
 // of the figure is between kMinSide and kMaxSide pixels, and the closed outer border of the figure in those pixels (x
 // right, y down, pixel centres at integers), one point per border pixel.
-// With transparency the figure is what is opaque; without, what Canny's edges close in ([F] section 5). Of several
-// figures the largest is taken.
+// With transparency the figure is what is opaque; without, what stands out from the ground (ground.h). Of several figures
+// the largest is taken.
 // Errors: UserError with one line.
 #pragma once
 #include <opencv2/core.hpp>
@@ -28,7 +28,8 @@ struct Figure {
   Vec2 picture_origin;  // where the whole picture's top left corner lies, in the pixels of rgba
   Vec2 picture_size;    // and how large it is there
   bool from_alpha = false;
-  int figures = 1;  // how many were found
+  bool paper = false;  // photographed or scanned on paper, whose light was evened out
+  int figures = 1;     // how many were found
 };
 
 Figure load_figure(const std::string& path);

@@ -5,65 +5,24 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/aligned_block.h"
 #include "app/author/character_file.h"
 #include "app/author/figure.h"
 #include "app/author/triangulate.h"
-#include "core/base/arena.h"
-#include "core/landmarks/landmarks.h"
+#include "core/outline/fourier.h"
 #include "platform/camera.h"
 
 namespace nt {
 namespace {
 
-// A belief that evidence from the shape does not overturn.
-constexpr float kToldHead = 50.0f;
-// A landmark group below this is named in the report.
-constexpr float kUnsure = 0.5f;
-
-Vec2 farthest(const std::vector<Vec2>& points, Vec2 from) {
-  return *std::max_element(points.begin(), points.end(),
-                           [&](Vec2 a, Vec2 b) { return length_sq(a - from) < length_sq(b - from); });
-}
-
-Vec2 outermost(const std::vector<Vec2>& points, Vec2 direction) {
-  return *std::max_element(points.begin(), points.end(),
-                           [&](Vec2 a, Vec2 b) { return dot(a, direction) < dot(b, direction); });
-}
-
-LandmarkHints hints_for(const Figure& figure, const std::optional<HeadSide>& head) {
-  LandmarkHints hints;
-  if (!head) return hints;
-  hints.has_last = true;
-  hints.head_log_odds = kToldHead;
+std::optional<ToldHead> told_head(const Figure& figure, const std::optional<HeadSide>& head) {
+  if (!head) return std::nullopt;
+  ToldHead told;
+  told.direction = head->direction;
   if (head->fraction) {
-    hints.last_head = figure.picture_origin +
-                      Vec2{head->fraction->x * figure.picture_size.x, head->fraction->y * figure.picture_size.y};
-    hints.last_tail = farthest(figure.outline, hints.last_head);
-  } else {
-    hints.last_head = outermost(figure.outline, head->direction);
-    hints.last_tail = outermost(figure.outline, head->direction * -1.0f);
+    told.point = figure.picture_origin +
+                 Vec2{head->fraction->x * figure.picture_size.x, head->fraction->y * figure.picture_size.y};
   }
-  return hints;
-}
-
-FishPose find_landmarks(const std::string& path, const Figure& figure, const PictureOptions& options) {
-  Limits limits;
-  limits.max_width = figure.rgba.cols;
-  limits.max_height = figure.rgba.rows;
-  limits.max_contour_points = std::max(limits.max_contour_points, static_cast<int>(figure.outline.size()));
-  const LandmarkSettings settings{options.u_num, options.l_num, options.harmonics};
-  Arena measure;
-  Landmarks::create(measure, limits, settings);
-  const AlignedBlock block(measure.used());
-  Arena arena(block.bytes());
-  Landmarks* landmarks = Landmarks::create(arena, limits, settings);
-  FishPose pose;
-  if (landmarks == nullptr || !landmarks->find(figure.outline, hints_for(figure, options.head), pose)) {
-    throw UserError(path + ": the figure has no head and tail to be found; give a longer figure, or --head");
-  }
-  pose.status = PoseStatus::ok;
-  return pose;
+  return told;
 }
 
 // Picture -> character: origin at the centre, x to the fish's right, y towards its head.
@@ -76,38 +35,27 @@ class CharacterFrame {
   Vec2 centre_, dir_, right_;
 };
 
-ControlPoints control_points(const FishPose& pose, const CharacterFrame& local) {
+ControlPoints control_points(const Proposal& proposal, const CharacterFrame& local) {
+  const FishPose& pose = proposal.pose;
   ControlPoints c;
   c.centre = local(pose.centre), c.head = local(pose.head), c.tail = local(pose.tail);
   for (int i = 0; i < pose.u_num; ++i) c.up_axis[i] = local(pose.up_axis[i]);
   for (int i = 0; i < pose.l_num; ++i) c.low_axis[i] = local(pose.low_axis[i]);
-  c.fins[kLeftFin] = {pose.confidence.l_fin > 0, local(pose.jun_tl), local(pose.jun_bl), local(pose.l_fin)};
-  c.fins[kRightFin] = {pose.confidence.r_fin > 0, local(pose.jun_tr), local(pose.jun_br), local(pose.r_fin)};
+  for (int i = 0; i < kMaxFins; ++i) {
+    const FinPoints& fin = proposal.fins[i];
+    if (fin.present) c.fins[i] = {true, local(fin.top), local(fin.bottom), local(fin.tip)};
+  }
   return c;
 }
 
-std::string percent(float v) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%d %%", static_cast<int>(std::lround(v * 100)));
-  return text;
-}
-
-std::vector<std::string> notes_on(const Figure& figure, const FishPose& pose) {
+std::vector<std::string> notes_on(const Figure& figure, const Proposal& proposal) {
   std::vector<std::string> notes;
-  const PoseConfidence& c = pose.confidence;
-  if (!figure.from_alpha) notes.push_back("no transparency: the figure was cut out by its edges; check the picture");
+  if (figure.paper) notes.push_back("no transparency: the figure was cut out of its paper; check the picture");
+  else if (!figure.from_alpha)
+    notes.push_back("no transparency: the figure was cut out by its edges; check the picture");
   if (figure.figures > 1)
     notes.push_back("several figures: the largest of " + std::to_string(figure.figures) + " was taken");
-  if (!(c.l_fin > 0)) notes.push_back("left fin not seen: this character has none");
-  if (!(c.r_fin > 0)) notes.push_back("right fin not seen: this character has none");
-  const auto unsure = [&](const char* what, float v) {
-    if (v > 0 && v < kUnsure) notes.push_back(std::string(what) + " is unsure (" + percent(v) + ")");
-  };
-  unsure("head end", c.head);
-  unsure("tail end", c.tail);
-  unsure("axis", c.axis);
-  unsure("left fin", c.l_fin);
-  unsure("right fin", c.r_fin);
+  for (const std::string& doubt : doubts_about(proposal)) notes.push_back(doubt);
   return notes;
 }
 
@@ -125,7 +73,7 @@ void check_options(const PictureOptions& o) {
   };
   need(o.u_num >= 1 && o.u_num <= kMaxUpAxis, "u_num must be 1 to 8");
   need(o.l_num >= 1 && o.l_num <= kMaxLowAxis, "l_num must be 1 to 32");
-  need(o.harmonics >= 1 && o.harmonics <= 64, "harmonics must be 1 to 64");
+  need(o.harmonics >= 1 && o.harmonics <= kMaxHarmonics, "harmonics must be 1 to 16");
   need(o.vertices >= 100 && o.vertices <= 8000, "vertices must be 100 to 8000");
 }
 
@@ -151,8 +99,10 @@ HeadSide parse_head_side(const std::string& text) {
 AuthoredCharacter author_picture(const std::string& path, const PictureOptions& options) {
   check_options(options);
   const Figure figure = load_figure(path);
-  const FishPose pose = find_landmarks(path, figure, options);
-  const CharacterFrame local(pose);
+  const LandmarkSettings settings{options.u_num, options.l_num, options.harmonics};
+  const Proposal proposal =
+      propose_landmarks(path, figure.mask, figure.rgba, figure.outline, told_head(figure, options.head), settings);
+  const CharacterFrame local(proposal.pose);
   Triangulation mesh = triangles_of(path, figure, options.vertices);
 
   std::vector<Vec2> vertices, texcoords;
@@ -169,7 +119,9 @@ AuthoredCharacter author_picture(const std::string& path, const PictureOptions& 
   character.u_num = options.u_num;
   character.l_num = options.l_num;
   character.harmonics = options.harmonics;
-  character.rest = control_points(pose, local);
+  character.has_tail_fin = proposal.has_tail_fin;
+  character.rest = control_points(proposal, local);
+  character.confidences = proposal.confidences;
   character.vertices = vertices;
   character.texcoords = texcoords;
   character.triangles = mesh.triangles;
@@ -187,8 +139,8 @@ AuthoredCharacter author_picture(const std::string& path, const PictureOptions& 
                 figure.rgba.cols,
                 figure.rgba.rows,
                 figure.from_alpha,
-                pose,
-                notes_on(figure, pose)};
+                proposal,
+                notes_on(figure, proposal)};
   return out;
 }
 

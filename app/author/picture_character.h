@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture of a fish (or of anything with a head and a tail) -> the bytes of a character file. Off the frame path.
 //
-// Steps, [F] sections 3.2 and 5: the figure and its outline (figure.h) -> the landmark code of the capture (core/landmarks) ->
+// Steps, [F] sections 3.2 and 5: the figure and its outline (figure.h) -> landmarks (proposal.h) ->
 // control points in character units (core/character/character.h: pixels of the texture, origin at the centre, x right, y
 // towards the head) -> triangles (triangulate.h) -> texture. Cost: 0.1 to 1 s.
 // Errors: UserError with one line.
@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/vec2.h"
-#include "core/landmarks/fish_pose.h"
+#include "app/author/proposal.h"
 
 namespace nt {
 
@@ -35,7 +34,7 @@ struct PictureReport {
   int vertices = 0, triangles = 0;
   int texture_width = 0, texture_height = 0;
   bool from_alpha = false;
-  FishPose pose;                   // landmarks in texture pixels (y down), with confidences
+  Proposal proposal;               // landmarks in texture pixels (y down), with confidences
   std::vector<std::string> notes;  // one line each, for the user: "left fin not seen", ...
 };
 

@@ -17,8 +17,6 @@
 namespace nt {
 namespace {
 
-constexpr float kSure = 0.5f;  // landmarks below this deserve a look at the preview
-
 struct Options {
   std::string picture, out, preview;
   PictureOptions author;
@@ -26,7 +24,8 @@ struct Options {
 
 cv::Point pixel(Vec2 p) { return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))}; }
 
-void draw_points(cv::Mat& picture, const FishPose& pose) {
+void draw_points(cv::Mat& picture, const Proposal& proposal) {
+  const FishPose& pose = proposal.pose;
   const int radius = std::max(3, std::max(picture.cols, picture.rows) / 150);
   const auto point = [&](Vec2 at, cv::Scalar rgb) {
     cv::circle(picture, pixel(at), radius, rgb, cv::FILLED, cv::LINE_AA);
@@ -35,14 +34,15 @@ void draw_points(cv::Mat& picture, const FishPose& pose) {
   point(pose.centre, {255, 255, 255});
   for (int i = 0; i < pose.u_num; ++i) point(pose.up_axis[i], cyan);
   for (int i = 0; i < pose.l_num; ++i) point(pose.low_axis[i], cyan);
-  if (pose.confidence.l_fin > 0) point(pose.l_fin, green), point(pose.jun_tl, yellow), point(pose.jun_bl, yellow);
-  if (pose.confidence.r_fin > 0) point(pose.r_fin, green), point(pose.jun_tr, yellow), point(pose.jun_br, yellow);
+  for (const FinPoints& fin : proposal.fins) {
+    if (fin.present) point(fin.tip, green), point(fin.top, yellow), point(fin.bottom, yellow);
+  }
   point(pose.head, {240, 40, 30});
   point(pose.tail, {40, 90, 255});
 }
 
 // The drawing with its mesh and control points, in the colours of the overlay.
-void write_preview(const std::string& path, const Character& character, const FishPose& pose) {
+void write_preview(const std::string& path, const Character& character, const Proposal& proposal) {
   const Picture& texture = character.texture;
   const cv::Mat rgba(texture.height, texture.width, CV_8UC4, const_cast<uint8_t*>(texture.pixels),
                      static_cast<std::size_t>(texture.stride));
@@ -61,7 +61,7 @@ void write_preview(const std::string& path, const Character& character, const Fi
     const std::vector<cv::Point> triangle = {a, b, c};
     cv::polylines(picture, triangle, true, {120, 120, 120}, 1, cv::LINE_AA);
   }
-  draw_points(picture, pose);
+  draw_points(picture, proposal);
   Picture out;
   out.pixels = picture.data, out.width = picture.cols, out.height = picture.rows;
   out.stride = static_cast<int>(picture.step), out.format = PixelFormat::rgb8;
@@ -72,12 +72,6 @@ std::string found(const PictureReport& report) {
   std::ostringstream text;
   text << report.vertices << " vertices, " << report.triangles << " triangles, texture " << report.texture_width << "x"
        << report.texture_height << ", figure cut out by " << (report.from_alpha ? "transparency" : "its edges") << "\n";
-  const PoseConfidence& c = report.pose.confidence;
-  const std::pair<const char*, float> landmarks[] = {
-      {"head", c.head}, {"tail", c.tail}, {"left fin", c.l_fin}, {"right fin", c.r_fin}, {"body axis", c.axis}};
-  for (const auto& [name, confidence] : landmarks) {
-    if (confidence > 0 && confidence < kSure) text << name << ": confidence only " << confidence << "; see --preview\n";
-  }
   for (const std::string& note : report.notes) text << note << "\n";
   return text.str();
 }
@@ -87,7 +81,7 @@ void make_character(const Options& options) {
   const AuthoredCharacter authored = author_picture(options.picture, options.author);
   const LoadedCharacter loaded(authored.bytes, options.out, Limits{});  // the same checks as when it is used
   write_character_file(options.out, authored.bytes);
-  if (!options.preview.empty()) write_preview(options.preview, loaded.character(), authored.report.pose);
+  if (!options.preview.empty()) write_preview(options.preview, loaded.character(), authored.report.proposal);
   write_text("-", options.out + ": " + found(authored.report));
 }
 

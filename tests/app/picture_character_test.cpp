@@ -94,7 +94,7 @@ TEST_F(PictureCharacter, TheCarpsTrianglesAllHavePositiveAreaAndFillItsOutline) 
 TEST_F(PictureCharacter, TheCarpsLandmarksAreWhereTheyWereDrawn) {
   // Places of make_carp.py in its 1024x640 picture: snout (978, 320), notch of the tail (126, 320), fins about (620, 320 +- 240)
   // on roots of 30 px about x 772; the crop starts at the tail's tips (x 24) and the fins' (y 82), less the margin.
-  const FishPose& p = carp().report.pose;
+  const FishPose& p = carp().report.proposal.pose;
   const Vec2 origin{24 - 2 - 8, 82 - 2 - 8};
   const auto expect_at = [&](Vec2 p_texture, Vec2 drawn, float tolerance) {
     EXPECT_NEAR(p_texture.x + origin.x, drawn.x, tolerance);
@@ -205,7 +205,7 @@ TEST_F(PictureCharacter, TheHeadGoesWhereTheUserSays) {
     PictureOptions options;
     options.head = parse_head_side(said);
     const bool right = std::string(said) == "right" || said[2] == '9';
-    const FishPose p = author_picture(file, options).report.pose;
+    const FishPose p = author_picture(file, options).report.proposal.pose;
     EXPECT_EQ(p.head.x > p.tail.x, right) << said;
   }
   for (const char* wrong : {"", "front", "1.5,0.2", "0.5", "0.5,0.5,1", "nan,0"}) {
@@ -224,7 +224,7 @@ TEST_F(PictureCharacter, WithoutTransparencyTheEdgesCutItOut) {
   const AuthoredCharacter a = author_picture(picture("leaf.jpg", leaf(3)), {});
   EXPECT_FALSE(a.report.from_alpha);
   EXPECT_GE(a.report.vertices, 2000);
-  EXPECT_NEAR(std::abs(a.report.pose.head.x - a.report.pose.tail.x), 470, 25);  // 60 to 530
+  EXPECT_NEAR(std::abs(a.report.proposal.pose.head.x - a.report.proposal.pose.tail.x), 470, 25);  // 60 to 530
 }
 
 TEST_F(PictureCharacter, WhatIsNoPictureOfAFigureGetsOneLine) {

@@ -10,7 +10,7 @@ namespace nt {
 namespace {
 
 constexpr std::size_t kMostTips = 14;
-constexpr double kSymmetric = 0.80;       // likeness from which the mirror line means something
+constexpr double kSymmetric = 0.60;       // likeness from which the mirror line means something
 constexpr double kFullySymmetric = 0.82;  // thin limbs never lie on their images
 constexpr double kMirrorBonus = 1.0;      // at full likeness; the best pair's way counts 1
 constexpr double kTwinPenalty = 0.5;

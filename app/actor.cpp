@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/author/mesh_character.h"
+#include "app/author/mesh_file.h"
 #include "app/author/picture_character.h"
 #include "core/character/character_format.h"
 #include "core/motion/inbetween.h"
@@ -27,7 +29,8 @@ bool is_character_file(const std::string& path) {
 
 LoadedCharacter load_character(const std::string& path) {
   if (is_character_file(path) || path.ends_with(".ntchar")) return LoadedCharacter(path, Limits{});
-  const AuthoredCharacter authored = author_picture(path, PictureOptions{});
+  const AuthoredCharacter authored =
+      is_mesh_file(path) ? author_mesh(path, MeshOptions{}) : author_picture(path, PictureOptions{});
   for (const std::string& note : authored.report.notes) std::fprintf(stderr, "%s: %s\n", path.c_str(), note.c_str());
   return LoadedCharacter(authored.bytes, path, Limits{});
 }

@@ -17,7 +17,7 @@
 
 namespace nt {
 
-// A character file, or a picture that is turned into a character on the spot. Throws UserError.
+// A character file, or a picture or mesh that is turned into a character on the spot. Throws UserError.
 LoadedCharacter load_character(const std::string& path);
 
 class Actor {

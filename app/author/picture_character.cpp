@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/author/assemble.h"
 #include "app/author/character_file.h"
 #include "app/author/figure.h"
 #include "app/author/triangulate.h"
@@ -23,29 +24,6 @@ std::optional<ToldHead> told_head(const Figure& figure, const std::optional<Head
                  Vec2{head->fraction->x * figure.picture_size.x, head->fraction->y * figure.picture_size.y};
   }
   return told;
-}
-
-// Picture -> character: origin at the centre, x to the fish's right, y towards its head.
-class CharacterFrame {
- public:
-  explicit CharacterFrame(const FishPose& pose) : centre_(pose.centre), dir_(pose.dir), right_(right_of(pose.dir)) {}
-  Vec2 operator()(Vec2 p) const { return {dot(p - centre_, right_), dot(p - centre_, dir_)}; }
-
- private:
-  Vec2 centre_, dir_, right_;
-};
-
-ControlPoints control_points(const Proposal& proposal, const CharacterFrame& local) {
-  const FishPose& pose = proposal.pose;
-  ControlPoints c;
-  c.centre = local(pose.centre), c.head = local(pose.head), c.tail = local(pose.tail);
-  for (int i = 0; i < pose.u_num; ++i) c.up_axis[i] = local(pose.up_axis[i]);
-  for (int i = 0; i < pose.l_num; ++i) c.low_axis[i] = local(pose.low_axis[i]);
-  for (int i = 0; i < kMaxFins; ++i) {
-    const FinPoints& fin = proposal.fins[i];
-    if (fin.present) c.fins[i] = {true, local(fin.top), local(fin.bottom), local(fin.tip)};
-  }
-  return c;
 }
 
 std::vector<std::string> notes_on(const Figure& figure, const Proposal& proposal) {
@@ -115,32 +93,22 @@ AuthoredCharacter author_picture(const std::string& path, const PictureOptions& 
   // y turns over between the two frames: so does the sense of every triangle.
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
 
-  Character character;
-  character.u_num = options.u_num;
-  character.l_num = options.l_num;
-  character.harmonics = options.harmonics;
-  character.has_tail_fin = proposal.has_tail_fin;
-  character.rest = control_points(proposal, local);
-  character.confidences = proposal.confidences;
+  Character character = character_of(proposal, local, settings);
   character.vertices = vertices;
   character.texcoords = texcoords;
   character.triangles = mesh.triangles;
-  character.texture = {figure.rgba.data,
-                       figure.rgba.cols,
-                       figure.rgba.rows,
-                       static_cast<int>(figure.rgba.step),
-                       PixelFormat::rgba8,
-                       0,
-                       0};
+  character.texture = picture_of(figure.rgba);
   AuthoredCharacter out;
   out.bytes = character_bytes(character);
-  out.report = {static_cast<int>(vertices.size()),
-                static_cast<int>(mesh.triangles.size() / 3),
-                figure.rgba.cols,
-                figure.rgba.rows,
-                figure.from_alpha,
-                proposal,
-                notes_on(figure, proposal)};
+  out.report.vertices = static_cast<int>(vertices.size());
+  out.report.triangles = static_cast<int>(mesh.triangles.size() / 3);
+  out.report.texture_width = figure.rgba.cols, out.report.texture_height = figure.rgba.rows;
+  out.report.from_alpha = figure.from_alpha;
+  out.report.made_from = figure.from_alpha ? "figure cut out by transparency"
+                         : figure.paper    ? "figure cut out of its paper"
+                                           : "figure cut out by its edges";
+  out.report.proposal = proposal;
+  out.report.notes = notes_on(figure, proposal);
   return out;
 }
 

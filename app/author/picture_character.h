@@ -34,6 +34,7 @@ struct PictureReport {
   int vertices = 0, triangles = 0;
   int texture_width = 0, texture_height = 0;
   bool from_alpha = false;
+  std::string made_from;           // in words
   Proposal proposal;               // landmarks in texture pixels (y down), with confidences
   std::vector<std::string> notes;  // one line each, for the user: "left fin not seen", ...
 };

@@ -18,6 +18,7 @@ constexpr const char* kSchema =
     "CREATE TABLE info(key TEXT PRIMARY KEY, value) WITHOUT ROWID;"
     "CREATE TABLE frame(frame INTEGER NOT NULL, fish INTEGER NOT NULL, time_ns INTEGER NOT NULL,"
     " status INTEGER NOT NULL, flags INTEGER NOT NULL, data BLOB NOT NULL, PRIMARY KEY(frame, fish)) WITHOUT ROWID;"
+    "CREATE TABLE edit(position INTEGER PRIMARY KEY, text TEXT NOT NULL);"
     "PRAGMA application_id = 1314152811;"
     "PRAGMA user_version = 1;";
 static_assert(kApplicationId == 1314152811 && kTakeVersion == 1, "kSchema says the same");
@@ -229,6 +230,28 @@ std::vector<TakeFrame> Take::frames(int fish) {
     explain(error);
   }
   return frames;
+}
+
+std::vector<std::string> Take::edits() {
+  std::vector<std::string> lines;
+  try {
+    Statement list = database_->prepare("SELECT text FROM edit ORDER BY position");
+    while (list.step()) lines.push_back(list.text(0));
+  } catch (const DatabaseError& error) {
+    explain(error);
+  }
+  return lines;
+}
+
+void Take::set_edits(const std::vector<std::string>& lines) {
+  try {
+    database_->execute("BEGIN; DELETE FROM edit;");
+    Statement add = database_->prepare("INSERT INTO edit(text) VALUES(?)");
+    for (const std::string& line : lines) add.bind(1, line).run();
+    database_->execute("COMMIT");
+  } catch (const DatabaseError& error) {
+    explain(error);
+  }
 }
 
 void Take::trim(int64_t first, int64_t last) {

@@ -60,6 +60,9 @@ class Take {
   TakeSummary summary();
   std::vector<int> fish();
   std::vector<TakeFrame> frames(int fish);  // in order
+  // The edit list, a line each (edits.h), kept beside the untouched recording.
+  std::vector<std::string> edits();
+  void set_edits(const std::vector<std::string>& lines);
   // Keeps frames first..last and numbers them anew from 0.
   void trim(int64_t first, int64_t last);
   void close();  // to one file, synchronised; the destructor does without the check

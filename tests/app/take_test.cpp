@@ -102,6 +102,17 @@ TEST(Take, InfoCanBeChanged) {
   EXPECT_EQ(take.info().camera, "sim:scene=calm");
 }
 
+TEST(Take, KeepsAnEditList) {
+  const TempDir dir;
+  make_take(dir / "a.take", 5);
+  const std::vector<std::string> lines{"set head_angle 3 1.5", "trim 1:3"};
+  Take::open(dir / "a.take", Take::Access::edit).set_edits({"retime 2"});
+  Take::open(dir / "a.take", Take::Access::edit).set_edits(lines);
+  Take take = Take::open(dir / "a.take", Take::Access::read);
+  EXPECT_EQ(take.edits(), lines);
+  EXPECT_EQ(take.frames(0).size(), 5u);  // the recording itself is not touched
+}
+
 TEST(Take, NeverWritesOverAFile) {
   const TempDir dir;
   make_take(dir / "a.take", 5);

@@ -22,6 +22,8 @@ void add_live(CLI::App& app, Action& action);
 void add_capture(CLI::App& app, Action& action);
 void add_animate(CLI::App& app, Action& action);
 void add_takes(CLI::App& app, Action& action);
+void add_edit(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_character(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_doctor(CLI::App& app, Action& action);

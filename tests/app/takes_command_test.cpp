@@ -2,6 +2,7 @@
 // neontetra takes and capture --take, as a user types them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -75,6 +76,25 @@ TEST(TakesCommand, SaysThatARecordingWasRecovered) {
   EXPECT_EQ(neontetra("takes " + dir.path()).err, "");
 }
 
+TEST(TakesCommand, EditsAreKeptBesideTheRecordingAndExported) {
+  const TempDir dir;
+  const std::string take = dir / "a.take";
+  ASSERT_EQ(neontetra(kSmallTank + ("--take " + take)).exit_code, 0);
+  write_text(dir / "edits", std::string("repair 0:119 0.1\nset tail_angle 60 -1.2\ntrim 30:89\n"));
+  const Outcome kept = neontetra("edit " + take + " --edits " + (dir / "edits"));
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_EQ(neontetra("edit " + take + " --list").out, "repair 0:119 0.1\nset tail_angle 60 -1.2\ntrim 30:89\n");
+  EXPECT_EQ(neontetra("export " + take + " --to csv --out " + (dir / "a.csv")).exit_code, 0);
+  EXPECT_EQ(neontetra("export " + take + " --to csv --recorded --out " + (dir / "b.csv")).exit_code, 0);
+  const auto rows = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  EXPECT_EQ(rows(read_text(dir / "a.csv")), 63);
+  EXPECT_EQ(rows(read_text(dir / "b.csv")), 123);
+  const Outcome bvh = neontetra("export " + take + " --to bvh --out -");
+  EXPECT_NE(bvh.out.find("Frames: 60\n"), std::string::npos);
+  EXPECT_EQ(neontetra("edit " + take + " --clear").exit_code, 0);
+  EXPECT_EQ(neontetra("edit " + take + " --list").out, "");
+}
+
 TEST(TakesCommand, MistakesAreOneLine) {
   const TempDir dir;
   Take::create(dir / "a.take", test_take_info()).close();
@@ -90,6 +110,10 @@ TEST(TakesCommand, MistakesAreOneLine) {
       {"takes --join " + (dir / "j.take") + " " + a, "at least two", 2},
       {"takes --join " + a + " " + a + " " + a, "never overwritten", 1},
       {"takes --delete --repair " + a, "one of --trim", 2},
+      {"edit " + a, "say one of", 2},
+      {"edit " + a + " --edits " + (dir / "none"), "cannot read the edits", 1},
+      {"export " + a + " --to csv --out " + (dir / "x.csv"), "the take is empty", 1},
+      {"export " + a + " --to fbx --out " + (dir / "x.fbx"), "fbx", 2},
       {"takes --repair " + (dir / "none.take"), "no such take", 1},
       {std::string(kSmallTank) + "--take " + a, "never overwritten", 1},
       {std::string(kSmallTank) + "--take " + (dir / "no/such/folder.take"), "no such file", 1},

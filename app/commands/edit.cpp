@@ -7,6 +7,7 @@
 #include "app/cli.h"
 #include "app/take/edited.h"
 #include "app/text_file.h"
+#include "platform/camera.h"
 
 namespace nt {
 namespace {

@@ -10,6 +10,7 @@
 #include "app/export/pose_table.h"
 #include "app/take/edited.h"
 #include "app/text_file.h"
+#include "platform/camera.h"
 
 namespace nt {
 namespace {

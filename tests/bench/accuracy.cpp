@@ -62,31 +62,56 @@ void score_pose(const FishPose& ours, const TankTruth& truth, Accuracy& out) {
   score_fin(real.confidence.r_fin, ours.confidence.r_fin, real.r_fin, ours.r_fin, real.axis_len, out);
 }
 
-void score(const FishPose& ours, const TankTruth& truth, int64_t frame, const OddFrame& odd, Accuracy& out) {
-  const auto report = [&](const std::string& what) {
-    if (odd) odd(frame, what);
-  };
-  ++out.scored;
-  out.visible += truth.visible;
-  const bool stray =
-      ours.ok() && (!truth.visible || length(ours.centre - truth.pose.centre) > 0.5f * truth.pose.axis_len);
-  if (stray) {
-    ++out.false_poses;
-    report(truth.visible ? "false pose: not at the fish" : "false pose: no fish wholly visible");
-    return;
+// A pose that is not the fish's: nobody is there, it is another's, or that of a heap of two.
+std::string what_is_false(const FishPose& ours, const TankTruth& truth, Accuracy& out) {
+  constexpr float kHeap = 0.05f;  // body lengths of midline rms, where another fish covers ours
+  if (!ours.ok()) return "";
+  const float off = length(ours.centre - truth.pose.centre);
+  for (const FishPose& other : truth.others) {
+    if (length(ours.centre - other.centre) < off && off > 0.5f * truth.pose.axis_len) {
+      ++out.wrong_fish;
+      return "false pose: another fish";
+    }
   }
-  if (!truth.visible) return;
-  if (!ours.ok()) {
-    report(std::string("missed: ") + to_string(ours.status));
-    return;
-  }
-  ++out.posed;
-  if (length(ours.head - truth.pose.tail) < length(ours.head - truth.pose.head)) {
-    ++out.wrong_end;
-    report("wrong end");
-  }
-  score_pose(ours, truth, out);
+  if (!truth.visible) return "false pose: no fish wholly visible";
+  if (off > 0.5f * truth.pose.axis_len) return "false pose: not at the fish";
+  const bool heap = truth.covered && midline_rms_px(ours, truth.midline) > kHeap * truth.pose.axis_len;
+  return heap ? "false pose: two fish taken for one" : "";
 }
+
+class Scorer {
+ public:
+  Scorer(const OddFrame& odd, Accuracy& out) : odd_(odd), out_(out) {}
+
+  void score(const FishPose& ours, const TankTruth& truth, int64_t frame) {
+    const bool visible = truth.visible && !truth.covered;
+    ++out_.scored;
+    out_.visible += visible;
+    const std::string wrong = what_is_false(ours, truth, out_);
+    const bool right = ours.ok() && wrong.empty();
+    out_.false_poses += !wrong.empty();
+    if (!wrong.empty()) report(frame, wrong);
+    if (right) waited_ = 0;
+    else if (visible) out_.longest_wait = std::max(out_.longest_wait, ++waited_);
+    if (!visible) return;
+    if (!ours.ok()) report(frame, std::string("missed: ") + to_string(ours.status));
+    if (!right) return;
+    ++out_.posed;
+    if (length(ours.head - truth.pose.tail) < length(ours.head - truth.pose.head)) {
+      ++out_.wrong_end;
+      report(frame, "wrong end");
+    }
+    score_pose(ours, truth, out_);
+  }
+
+ private:
+  void report(int64_t frame, const std::string& what) const {
+    if (odd_) odd_(frame, what);
+  }
+  const OddFrame& odd_;
+  Accuracy& out_;
+  int waited_ = 0;
+};
 
 }  // namespace
 
@@ -113,7 +138,8 @@ double quantile(std::vector<float> values, double q) {
 
 void Accuracy::add(const Accuracy& other) {
   scored += other.scored, visible += other.visible, posed += other.posed;
-  wrong_end += other.wrong_end, false_poses += other.false_poses;
+  wrong_end += other.wrong_end, false_poses += other.false_poses, wrong_fish += other.wrong_fish;
+  longest_wait = std::max(longest_wait, other.longest_wait);
   fins_open += other.fins_open, fins_found += other.fins_found;
   fins_claimed += other.fins_claimed, fins_true += other.fins_true;
   const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
@@ -135,13 +161,14 @@ Accuracy measure_accuracy(const AccuracyRun& run, const OddFrame& odd) {
   Tank tank(run.tank);
   Accuracy out;
   out.scene = run.tank.scene;
+  Scorer scorer(odd, out);
   for (int n = 0; n < run.frames; ++n) {
     Frame frame;
     frame.luma = tank.render_next();
     frame.sequence = static_cast<uint64_t>(n);
     frame.timestamp_ns = static_cast<int64_t>(1e9 * n / run.tank.fps);
     capture.step(frame);
-    if (n >= run.warm_up) score(capture.pose(), tank.truth(), n, odd, out);
+    if (n >= run.warm_up) scorer.score(capture.pose(), tank.truth(), n);
   }
   return out;
 }

@@ -2,8 +2,9 @@
 // How near the capture comes to the tank's truth, over whole runs and with the background model's own masks.
 //
 // Scene, seed, size, frames -> counts and errors. Lengths are per cent of the body length, which is the truth's axis
-// length in the same frame; angles are degrees. Only frames whose fish is wholly visible are scored; the first
-// `warm_up` frames are not, because the background is being learned.
+// length in the same frame; angles are degrees. Only frames whose fish is wholly visible are scored: inside the frame, and
+// under no other fish. A pose while another fish covers it is welcome where it is right and false where it is not. The
+// first `warm_up` frames do not count, because the background is being learned.
 // Used by bench_accuracy (long runs) and by the tests that pin the figures (short runs).
 #pragma once
 #include <cstdint>
@@ -25,11 +26,15 @@ struct AccuracyRun {
 
 struct Accuracy {
   std::string scene;
-  int scored = 0;        // frames after the warm-up
-  int visible = 0;       // of these, with the fish wholly inside the frame
-  int posed = 0;         // of the visible ones, with a pose
-  int wrong_end = 0;     // our head is nearer to the true tail than to the true head
-  int false_poses = 0;   // a pose with no fish wholly visible, or more than half a body length from the fish
+  int scored = 0;       // frames after the warm-up
+  int visible = 0;      // of these, with the fish wholly inside the frame and under no other
+  int posed = 0;        // of the visible ones, with a pose
+  int wrong_end = 0;    // our head is nearer to the true tail than to the true head
+  int false_poses = 0;  // a pose with no fish wholly visible, or more than half a body length from the fish
+  int wrong_fish = 0;   // of these, at another fish
+  // The longest that the fish was wholly visible without a pose of its own, frames: how long it took to be acquired again
+  // after it had been away, covered, or lost with the light. Frames in which it is not visible do not count.
+  int longest_wait = 0;
   int fins_open = 0;     // fins that are open in the truth of a frame with a pose ...
   int fins_found = 0;    // ... and of these, seen by us
   int fins_claimed = 0;  // fins that we say we see ...

@@ -68,24 +68,26 @@ Options parse(int argc, char** argv) {
   return o;
 }
 
-void print_row(const Accuracy& a) {
-  std::printf("%-14s %7d %7.2f %5d %5d  %6.2f %6.2f %6.2f %6.2f %6.2f  %6.2f %6.2f %6.2f  %5.1f %5.1f\n",
-              a.scene.c_str(), a.visible, 100 * a.pose_share(), a.wrong_end, a.false_poses, quantile(a.head, 0.5),
-              quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5), quantile(a.fin_tip, 0.5),
-              quantile(a.direction, 0.5), quantile(a.direction, 0.9), quantile(a.direction, 0.99), 100 * a.fin_recall(),
-              100 * a.fin_precision());
+void print_row(const Accuracy& a, double fps) {
+  std::printf("%-14s %7d %7.2f %5d %5d %5d %5.2f  %6.2f %6.2f %6.2f %6.2f %6.2f  %6.2f %6.2f %6.2f  %5.1f %5.1f\n",
+              a.scene.c_str(), a.visible, 100 * a.pose_share(), a.wrong_end, a.false_poses, a.wrong_fish,
+              a.longest_wait / fps, quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5),
+              quantile(a.midline, 0.5), quantile(a.fin_tip, 0.5), quantile(a.direction, 0.5),
+              quantile(a.direction, 0.9), quantile(a.direction, 0.99), 100 * a.fin_recall(), 100 * a.fin_precision());
   std::fflush(stdout);
 }
 
 void print_json(const Accuracy& a, bool last) {
   std::printf(
       "  {\"scene\": \"%s\", \"frames\": %d, \"visible\": %d, \"posed\": %d, \"wrong_end\": %d, \"false_poses\": %d,\n"
+      "   \"wrong_fish\": %d, \"longest_wait_frames\": %d,\n"
       "   \"head_pct\": %.3f, \"tail_pct\": %.3f, \"centre_pct\": %.3f, \"midline_rms_pct\": %.3f, \"fin_tip_pct\": "
       "%.3f,\n"
       "   \"dir_median_deg\": %.3f, \"dir_p99_deg\": %.3f, \"fin_recall\": %.4f, \"fin_precision\": %.4f}%s\n",
-      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.false_poses, quantile(a.head, 0.5),
-      quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5), quantile(a.fin_tip, 0.5),
-      quantile(a.direction, 0.5), quantile(a.direction, 0.99), a.fin_recall(), a.fin_precision(), last ? "" : ",");
+      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.false_poses, a.wrong_fish, a.longest_wait,
+      quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5),
+      quantile(a.fin_tip, 0.5), quantile(a.direction, 0.5), quantile(a.direction, 0.99), a.fin_recall(),
+      a.fin_precision(), last ? "" : ",");
 }
 
 Accuracy measure_scene(const Options& o, const std::string& scene) {
@@ -112,19 +114,20 @@ int main(int argc, char** argv) try {
   if (o.json) std::printf("[\n");
   else
     std::printf(
-        "%d seeds x %d frames, %dx%d; medians, %% of the body length; direction in degrees; fins in %%\n"
-        "%-14s %7s %7s %5s %5s  %6s %6s %6s %6s %6s  %6s %6s %6s  %5s %5s\n",
+        "%d seeds x %d frames, %dx%d; medians, %% of the body length; direction in degrees; fins in %%; wait: longest "
+        "without a pose, s\n"
+        "%-14s %7s %7s %5s %5s %5s %5s  %6s %6s %6s %6s %6s  %6s %6s %6s  %5s %5s\n",
         o.seeds, o.run.frames, o.run.tank.width, o.run.tank.height, "scene", "visible", "pose%", "wrong", "false",
-        "head", "tail", "centre", "midl.", "fin", "dir50", "dir90", "dir99", "fRec", "fPrec");
+        "other", "wait", "head", "tail", "centre", "midl.", "fin", "dir50", "dir90", "dir99", "fRec", "fPrec");
   Accuracy all;
   all.scene = "all";
   for (std::size_t i = 0; i < o.scenes.size(); ++i) {
     const Accuracy a = measure_scene(o, o.scenes[i]);
     all.add(a);
-    o.json ? print_json(a, i + 1 == o.scenes.size()) : print_row(a);
+    o.json ? print_json(a, i + 1 == o.scenes.size()) : print_row(a, o.run.tank.fps);
   }
   if (o.json) std::printf("]\n");
-  else print_row(all);
+  else print_row(all, o.run.tank.fps);
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "bench_accuracy: %s\n", e.what());

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/pipeline/fish_track.h"
 
+#include <array>
+
 #include "core/base/det_math.h"
 #include "core/outline/moments.h"
 #include "core/outline/stations.h"
 #include "core/outline/trace.h"
 #include "core/segment/clean.h"
+#include "core/segment/part.h"
 
 namespace nt {
 namespace {
@@ -13,6 +16,9 @@ namespace {
 constexpr float kRingHole = 0.1f;  // share of the outline: eyes of the ground's tone are 2 %, a ring's hole much more
 constexpr int kForgetOrder = 15;   // frames without a pose after which the order of head and tail is open again
 constexpr float kTravelFrames = 5.0f;
+// What has been there for less, or is smaller, may be a part of this fish.
+constexpr int kKnownFrames = 10;
+constexpr float kFishBeside = 0.35f;
 
 }  // namespace
 
@@ -25,17 +31,22 @@ bool FishTrack::layout(Arena& arena, const Limits& limits, int width, int height
   return !arena.full();
 }
 
-PoseStatus FishTrack::follow(const CaptureTools& tools, const TargetChoice& choice) {
-  if (choice.blob < 0) {
-    if (choice.status == PoseStatus::absent) unprotect();
-    miss(choice.status);
-    return choice.status;
-  }
-  PoseStatus status = outline(tools, choice.blob);
-  if (status == PoseStatus::ok && choice.status != PoseStatus::ok) status = choice.status;
-  if (status == PoseStatus::ok) status = find_pose(tools);
+PoseStatus FishTrack::follow(const CaptureTools& tools) {
+  Swimmer* swimmer = tools.swimmers.find(swimmer_id);
+  if (swimmer == nullptr) unprotect();
+  const PoseStatus status = swimmer != nullptr ? look_for(tools, *swimmer) : PoseStatus::absent;
   if (status != PoseStatus::ok) miss(status);
   return status;
+}
+
+PoseStatus FishTrack::look_for(const CaptureTools& tools, Swimmer& swimmer) {
+  if (swimmer.blob < 0) return PoseStatus::lost;
+  const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(swimmer.blob)];
+  const PoseStatus status = outline(tools, swimmer.blob);
+  if (swimmer.in_heap) return PoseStatus::occluded;
+  if (!blob.touches_edge) looks = swimmer.looks;
+  if (status != PoseStatus::ok) return status;
+  return blob.touches_edge ? PoseStatus::partial : find_pose(tools, swimmer);
 }
 
 void FishTrack::miss(PoseStatus status) {
@@ -56,6 +67,7 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   if (refine.blobs_dropped()) tools.report.flags |= kBlobsDropped;
   if (fish.shadow_removed) tools.report.flags |= kShadowRemoved;
   protect_from_learning(fish);
+  touching_ = part(tools, fish, index);
   tools.clock.lap(Stage::refine);
   const int count = trace_outline(fish.mask, fish.box.x0, fish.box.y0, contour);
   if (count < 0) tools.report.flags |= kContourCut;
@@ -67,6 +79,34 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   if (cut) return PoseStatus::partial;
   if (enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed) return PoseStatus::occluded;
   return contour_count > 0 ? PoseStatus::ok : PoseStatus::lost;
+}
+
+// Takes away from what was taken back to the blob what belongs to other swimmers whose fins touch this one's. False when
+// there are none.
+bool FishTrack::part(const CaptureTools& tools, const FishMask& fish, int mine) const {
+  std::array<int, Swimmers::kMostSwimmers> others{};
+  std::size_t count = 0;
+  for (const Swimmer& other : tools.swimmers.all()) {
+    if (other.blob < 0 || other.blob == mine || other.frames < kKnownFrames ||
+        other.looks.area_px < kFishBeside * looks.area_px)
+      continue;
+    const Box& there = tools.blobs.blobs()[static_cast<std::size_t>(other.blob)].box;
+    if (there.x0 >= fish.box.x1 || there.x1 <= fish.box.x0 || there.y0 >= fish.box.y1 || there.y1 <= fish.box.y0)
+      continue;
+    for (const Run& run : tools.blobs.runs()) {
+      if (run.label != other.blob || !fish.mask.at((run.x0 + run.x1) / 2 - fish.box.x0, run.y - fish.box.y0)) continue;
+      others[count++] = other.blob;
+      break;
+    }
+  }
+  if (count == 0) return false;
+  const auto words = [&](std::size_t i) {
+    const BitMask& m = tools.scratch[i];
+    return std::span<uint64_t>(m.words, static_cast<std::size_t>(m.words_per_row) * static_cast<std::size_t>(m.height));
+  };
+  part_from_others(fish.mask, fish.box, tools.blobs.runs(), mine, std::span<const int>(others).first(count), words(0),
+                   words(1), words(2));
+  return true;
 }
 
 // Its box; true when the fish may be cut by the frame's edge: two pixels short of it, because its rim is half-transparent.
@@ -88,24 +128,28 @@ float FishTrack::enclosed_px() const {
   return det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
 }
 
-LandmarkHints FishTrack::hints() const {
+LandmarkHints FishTrack::hints(const Swimmer& swimmer) const {
   LandmarkHints hints;
   hints.has_last = has_last_;
-  const Vec2 moved = target.velocity() * static_cast<float>(frames_without_pose_ + 1);
+  const Vec2 moved = swimmer.velocity * static_cast<float>(frames_without_pose_ + 1);
   hints.last_head = last_head_ + moved, hints.last_tail = last_tail_ + moved;
   hints.head_log_odds = head_log_odds_;
-  hints.travel = has_last_ ? travel_ : target.velocity() * kTravelFrames;
+  hints.travel = has_last_ ? travel_ : swimmer.velocity * kTravelFrames;
   return hints;
 }
 
-PoseStatus FishTrack::find_pose(const CaptureTools& tools) {
+PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
-  if (target.changed() || frames_without_pose_ > kForgetOrder) has_last_ = false, head_log_odds_ = 0;
-  if (target.changed()) init_len = 0;
+  const bool changed = last_swimmer_ != swimmer.id;
+  last_swimmer_ = swimmer.id;
+  if (changed || frames_without_pose_ > kForgetOrder) has_last_ = false, head_log_odds_ = 0;
+  if (changed) init_len = 0;
   Landmarks& landmarks = tools.landmarks;
-  const bool found = landmarks.find(points(), hints(), pose);
+  const bool found = landmarks.find(points(), hints(swimmer), pose);
   tools.clock.lap(Stage::landmarks);
-  if (!found || !target.observe(box, pose.centre, landmarks.area_px(), pose.axis_len)) return PoseStatus::occluded;
+  if (!found ||
+      !swimmer.observe(box, pose.centre, landmarks.area_px(), pose.axis_len, touching_, tools.settings.lost_after))
+    return PoseStatus::occluded;
   if (landmarks.swapped()) tools.report.flags |= kHeadTailSwapped;
   pose.status = PoseStatus::ok;
   remember(landmarks);

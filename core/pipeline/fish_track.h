@@ -2,9 +2,9 @@
 // One fish that is followed: everything that capture remembers of it from frame to frame, and its way from a blob to a
 // pose and a motion.
 //
-// blobs of one frame -> this fish's outline, pose, motion, or a status that says why there is none.
+// its swimmer's blob in one frame -> this fish's outline, pose, motion, or a status that says why there is none.
 // What holds for the whole frame (background, blobs, the scratch of refine and landmarks) is lent by CaptureTools, so a
-// fish costs its contour (8 bytes a point of Limits::max_contour_points) and a few kilobytes.
+// fish costs its contour (8 bytes a point of Limits::max_contour_points), one bit a pixel and a few kilobytes.
 // Frame of reference: pixels of the frame handed in.
 #pragma once
 #include <span>
@@ -17,7 +17,7 @@
 #include "core/pipeline/pipeline.h"
 #include "core/segment/background.h"
 #include "core/segment/refine.h"
-#include "core/segment/target.h"
+#include "core/segment/swimmers.h"
 
 namespace nt {
 
@@ -27,6 +27,8 @@ struct CaptureTools {
   const CaptureSettings& settings;
   Background& background;
   const Blobs& blobs;
+  Swimmers& swimmers;
+  std::span<const BitMask> scratch;  // three, as large as the frame
   Refine& refine;
   Landmarks& landmarks;
   StageClock& clock;
@@ -34,9 +36,10 @@ struct CaptureTools {
 };
 
 struct FishTrack {
-  Target target;
-  FishPose pose;  // of the last step
-  Motion motion;  // of the last step with a pose
+  uint32_t swimmer_id = 0;  // 0: nobody
+  Looks looks;              // of the last swimmer
+  FishPose pose;            // of the last step
+  Motion motion;            // of the last step with a pose
   bool has_motion = false;
   float init_len = 0;          // axis length in the first frame with a pose, pixels
   std::span<Vec2> contour;     // room for Limits::max_contour_points
@@ -48,18 +51,20 @@ struct FishTrack {
   bool protected_now = false;  // `protect` holds a fish
 
   bool layout(Arena& arena, const Limits& limits, int width, int height);
-  // One frame: the status is also the pose's. `choice` is the target's.
-  PoseStatus follow(const CaptureTools& tools, const TargetChoice& choice);
+  // One frame of its swimmer; the status is also the pose's.
+  PoseStatus follow(const CaptureTools& tools);
   // A frame that gives no pose.
   void miss(PoseStatus status);
   void unprotect() { protected_now = false; }
 
  private:
+  PoseStatus look_for(const CaptureTools& tools, Swimmer& swimmer);
   PoseStatus outline(const CaptureTools& tools, int blob);
+  bool part(const CaptureTools& tools, const FishMask& fish, int blob) const;
   bool measure_contour(int width, int height);
   float enclosed_px() const;
-  PoseStatus find_pose(const CaptureTools& tools);
-  LandmarkHints hints() const;
+  PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
+  LandmarkHints hints(const Swimmer& swimmer) const;
   void remember(const Landmarks& landmarks);
   void protect_from_learning(const FishMask& fish);
   std::span<const Vec2> points() const { return contour.first(static_cast<std::size_t>(contour_count)); }
@@ -67,6 +72,8 @@ struct FishTrack {
   Vec2 last_head_, last_tail_, last_centre_, travel_;
   float head_log_odds_ = 0;
   bool has_last_ = false;
+  bool touching_ = false;  // what was outlined holds a part of another one
+  uint32_t last_swimmer_ = 0;
   int frames_without_pose_ = 0;
 };
 

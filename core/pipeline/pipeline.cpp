@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/pipeline/pipeline.h"
 
+#include <array>
+
 #include "core/base/arena.h"
 #include "core/base/hash.h"
 #include "core/landmarks/landmarks.h"
@@ -9,6 +11,8 @@
 #include "core/segment/clean.h"
 #include "core/segment/ghost.h"
 #include "core/segment/refine.h"
+#include "core/segment/swimmers.h"
+#include "core/segment/target.h"
 
 namespace nt {
 namespace {
@@ -16,7 +20,11 @@ namespace {
 // A lamp switched on, or a camera that was pushed: this share of the picture differs for this many frames.
 constexpr float kFloodShare = 0.4f;
 constexpr int kFloodFrames = 8;
-constexpr int kGhostBlobs = 64;  // more blobs than this are specks, not ghosts; bounds the cost of looking
+// Who besides the target is a fish: seen for so long, of that shape, and having swum so many of its lengths.
+constexpr int kFishFrames = 10;
+constexpr float kFishLike = 0.25f, kFishTravel = 0.5f;
+constexpr float kSameLooks = 0.25f;  // Looks::unlike, up to which one that comes in is one that was lost
+constexpr int kGhostBlobs = 64;      // more blobs than this are specks, not ghosts; bounds the cost of looking
 
 struct CaptureImpl final : Capture {
   Limits limits;
@@ -28,9 +36,14 @@ struct CaptureImpl final : Capture {
   Blobs* blobs = nullptr;
   Refine* refine = nullptr;
   Landmarks* landmarks = nullptr;
-  BitMask raw, scratch, open;
+  BitMask raw, open;
+  std::array<BitMask, 3> scratch;
   std::span<BlobView> views;
-  FishTrack fish;
+  Swimmers swimmers;
+  Target target;
+  std::span<FishTrack> fish;
+  int target_fish = 0;
+  BitMask keep;  // what all fish protect, where there are several
 
   int view_count = 0;
   int flood_frames = 0;
@@ -39,7 +52,15 @@ struct CaptureImpl final : Capture {
   bool layout(Arena& arena, int w, int h);
   StepReport run(const Frame& frame, NowNs now);
   bool segment(const Frame& frame, StageClock& clock, StepReport& report);
-  void publish_blobs(int selected);
+  const BitMask* protected_pixels();
+  void unprotect();
+  void number_fish();
+  int number_for(const Swimmer& swimmer) const;
+  bool is_fish(const Swimmer& swimmer) const;
+  PoseStatus miss_all(PoseStatus status);
+  void publish_blobs();
+  FishTrack& the_fish(int i) { return fish[static_cast<std::size_t>(i < 0 ? target_fish : i)]; }
+  const FishTrack& the_fish(int i) const { return fish[static_cast<std::size_t>(i < 0 ? target_fish : i)]; }
   void take_fingerprint();
   StepReport finish(StepReport report, PoseStatus status);
 };
@@ -58,18 +79,26 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   if (!model.ok()) return false;
   background = model.value();
   raw = take_mask(arena, w, h);
-  scratch = take_mask(arena, w, h);
+  for (BitMask& m : scratch) m = take_mask(arena, w, h);
   open = take_mask(arena, w, h);
   blobs = Blobs::create(arena, limits);
   refine = Refine::create(arena, limits);
   landmarks = Landmarks::create(arena, limits, {settings.u_num, settings.l_num, settings.harmonics});
   views = arena.take<BlobView>(static_cast<std::size_t>(max_int(limits.max_blobs, 0)));
-  return fish.layout(arena, limits, w, h);
+  const int count = clamp_int(settings.max_fish, 1, kMostFish);
+  if (count > 1) keep = take_mask(arena, w, h);
+  fish = arena.take<FishTrack>(static_cast<std::size_t>(count));
+  FishTrack unmeasured;  // a measuring arena hands out no fish
+  for (int i = 0; i < count; ++i) {
+    FishTrack& one = fish.empty() ? unmeasured : fish[static_cast<std::size_t>(i)];
+    if (!one.layout(arena, limits, w, h)) return false;
+  }
+  return !arena.full();
 }
 
 // Background to blobs. False when the mask of this frame means nothing.
 bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& report) {
-  const bool means_something = background->apply(frame.luma, fish.protected_now ? &fish.protect : nullptr, raw);
+  const bool means_something = background->apply(frame.luma, protected_pixels(), raw);
   clock.lap(Stage::background);
   report.foreground_share =
       static_cast<float>(count_bits(raw)) / (static_cast<float>(width) * static_cast<float>(height));
@@ -77,13 +106,13 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   if (flood_frames >= kFloodFrames) {
     background->restart();
     flood_frames = 0;
-    fish.unprotect();
+    unprotect();
     report.flags |= kRelearned;
     return false;
   }
   if (!means_something) return false;
 
-  open_mask(raw, scratch, open, settings.open_size);
+  open_mask(raw, scratch[0], open, settings.open_size);
   clock.lap(Stage::clean);
   const int min_area = settings.min_area_px > 0 ? settings.min_area_px : max_int(width * height / 4000, 9);
   blobs->find(open, min_area);
@@ -99,11 +128,77 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   return true;
 }
 
-void CaptureImpl::publish_blobs(int selected) {
+// What must not be learned as background, or null.
+const BitMask* CaptureImpl::protected_pixels() {
+  if (fish.size() == 1) return fish[0].protected_now ? &fish[0].protect : nullptr;
+  clear_mask(keep);
+  for (const FishTrack& one : fish) {
+    if (!one.protected_now) continue;
+    for (int i = 0; i < keep.words_per_row * height; ++i) keep.words[i] |= one.protect.words[i];
+  }
+  return &keep;
+}
+
+void CaptureImpl::unprotect() {
+  for (FishTrack& one : fish) one.unprotect();
+}
+
+// Worth a number of its own, besides the target.
+bool CaptureImpl::is_fish(const Swimmer& s) const {
+  return s.blob >= 0 && !s.in_heap && s.frames >= kFishFrames && s.likeness > kFishLike && s.travelled > kFishTravel;
+}
+
+// The number for a swimmer that has none; -1 when all are taken. One that was lost is known again by its looks.
+int CaptureImpl::number_for(const Swimmer& s) const {
+  int alike = -1, unused = -1, free = -1;
+  float least = kSameLooks;
+  for (int i = static_cast<int>(fish.size()) - 1; i >= 0; --i) {
+    const FishTrack& one = fish[static_cast<std::size_t>(i)];
+    if (one.swimmer_id != 0) continue;
+    free = i;
+    if (one.looks.area_px == 0) unused = i;
+    else if (one.looks.unlike(s.looks) <= least) least = one.looks.unlike(s.looks), alike = i;
+  }
+  return alike >= 0 ? alike : unused >= 0 ? unused : free;
+}
+
+// Which swimmer is which fish.
+void CaptureImpl::number_fish() {
+  const auto number_of = [this](uint32_t id) {
+    for (int i = 0; i < static_cast<int>(fish.size()); ++i)
+      if (fish[static_cast<std::size_t>(i)].swimmer_id == id) return i;
+    return -1;
+  };
+  for (FishTrack& one : fish)
+    if (swimmers.find(one.swimmer_id) == nullptr) one.swimmer_id = 0;
+  if (const Swimmer* chosen = swimmers.find(target.id())) {
+    int number = number_of(chosen->id);
+    if (number < 0) {
+      const int fitting = number_for(*chosen);
+      number = fitting < 0 ? target_fish : fitting;  // all are taken: in place of the last target
+      fish[static_cast<std::size_t>(number)].swimmer_id = chosen->id;
+    }
+    target_fish = number;
+  }
+  for (Swimmer& s : swimmers.all()) {
+    int number = number_of(s.id);
+    if (number < 0 && fish.size() > 1 && is_fish(s) && (number = number_for(s)) >= 0)
+      fish[static_cast<std::size_t>(number)].swimmer_id = s.id;
+    s.followed = number >= 0;
+  }
+}
+
+PoseStatus CaptureImpl::miss_all(PoseStatus status) {
+  for (FishTrack& one : fish) one.miss(status);
+  return status;
+}
+
+void CaptureImpl::publish_blobs() {
   view_count = 0;
+  const Swimmer* mine = swimmers.find(target.id());
   for (const Blob& b : blobs->blobs()) {
-    const bool mine = view_count == selected;
-    views[static_cast<std::size_t>(view_count++)] = {b.box, b.centroid, b.area_px, mine};
+    const bool selected = mine != nullptr && mine->blob == view_count;
+    views[static_cast<std::size_t>(view_count++)] = {b.box, b.centroid, b.area_px, selected};
   }
 }
 
@@ -114,8 +209,9 @@ void CaptureImpl::take_fingerprint() {
     hash = hash_u64(static_cast<uint64_t>(b.area_px), hash);
     hash = hash_u64(static_cast<uint64_t>(b.box.x0) << 32 | static_cast<uint64_t>(b.box.y0), hash);
   }
-  for (const Vec2 p : fish.contour.first(static_cast<std::size_t>(fish.contour_count)))
-    hash = hash_u64(static_cast<uint64_t>(p.x) << 32 | static_cast<uint64_t>(p.y), hash);
+  for (const FishTrack& one : fish)
+    for (const Vec2 p : one.contour.first(static_cast<std::size_t>(one.contour_count)))
+      hash = hash_u64(static_cast<uint64_t>(p.x) << 32 | static_cast<uint64_t>(p.y), hash);
 }
 
 StepReport CaptureImpl::finish(StepReport report, PoseStatus status) {
@@ -130,19 +226,19 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
   view_count = 0;
   if (frame.luma.width != width || frame.luma.height != height) {
     report.flags |= kFrameSize;
-    fish.miss(PoseStatus::absent);
-    return finish(report, PoseStatus::absent);
+    return finish(report, miss_all(PoseStatus::absent));
   }
   if (!segment(frame, clock, report)) {
-    fish.miss(PoseStatus::relearn);
-    return finish(report, PoseStatus::relearn);
+    return finish(report, miss_all(PoseStatus::relearn));
   }
-  const TargetChoice choice = fish.target.update(blobs->blobs());
-  publish_blobs(choice.blob);
+  swimmers.update(blobs->blobs(), blobs->runs(), frame.luma);
+  target.update(swimmers, blobs->blobs());
+  number_fish();
+  publish_blobs();
   clock.lap(Stage::target);
-  const CaptureTools tools{frame, settings, *background, *blobs, *refine, *landmarks, clock, report};
-  const PoseStatus status = fish.follow(tools, choice);
-  return finish(report, status);
+  const CaptureTools tools{frame, settings, *background, *blobs, swimmers, scratch, *refine, *landmarks, clock, report};
+  for (FishTrack& one : fish) one.follow(tools);
+  return finish(report, the_fish(kTarget).pose.status);
 }
 
 }  // namespace
@@ -162,6 +258,8 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
     return Status{StatusCode::bad_argument, "frames under 16x16 pixels are too small to hold a fish"};
   if (width > limits.max_width || height > limits.max_height)
     return Status{StatusCode::bad_argument, "the frame does not fit Limits::max_width x max_height: raise them"};
+  if (settings.max_fish < 1 || settings.max_fish > kMostFish)
+    return Status{StatusCode::bad_argument, "max_fish must be 1 to 16"};
   if (settings.open_size < 1 || settings.open_size % 2 == 0)
     return Status{StatusCode::bad_argument, "open_size must be odd: 1, 3, 5 ..."};
   Arena arena(memory);
@@ -173,7 +271,7 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
   c.width = width, c.height = height;
   if (!c.layout(arena, width, height))
     return Status{StatusCode::out_of_memory, "the memory handed to core is smaller than bytes_needed()"};
-  c.fish.target.set_lost_after(settings.lost_after);
+  c.swimmers.set_lost_after(settings.lost_after);
   c.bytes_used = arena.used();
   return static_cast<Capture*>(&c);
 }
@@ -183,28 +281,34 @@ void Capture::learn(const Frame& frame) {
   if (frame.luma.width == c.width && frame.luma.height == c.height) c.background->learn(frame.luma);
 }
 StepReport Capture::step(const Frame& frame, NowNs now) { return impl(*this).run(frame, now); }
-void Capture::select_at(Vec2 point) { impl(*this).fish.target.select_at(point); }
-void Capture::select_next() { impl(*this).fish.target.select_next(); }
-void Capture::select_auto() { impl(*this).fish.target.select_auto(); }
-void Capture::relearn() { impl(*this).background->restart(), impl(*this).fish.unprotect(); }
-const FishPose& Capture::pose() const { return impl(*this).fish.pose; }
-const Motion& Capture::motion() const { return impl(*this).fish.motion; }
-float Capture::init_len() const { return impl(*this).fish.init_len; }
+void Capture::select_at(Vec2 point) { impl(*this).target.select_at(point); }
+void Capture::select_next() { impl(*this).target.select_next(); }
+void Capture::select_auto() { impl(*this).target.select_auto(); }
+void Capture::relearn() { impl(*this).background->restart(), impl(*this).unprotect(); }
+int Capture::fish_count() const { return static_cast<int>(impl(*this).fish.size()); }
+int Capture::target() const { return impl(*this).target_fish; }
+const FishPose& Capture::pose(int fish) const { return impl(*this).the_fish(fish).pose; }
+const Motion& Capture::motion(int fish) const { return impl(*this).the_fish(fish).motion; }
+float Capture::init_len(int fish) const { return impl(*this).the_fish(fish).init_len; }
 std::span<const BlobView> Capture::blobs() const {
   return impl(*this).views.first(static_cast<std::size_t>(impl(*this).view_count));
 }
-std::span<const Vec2> Capture::contour() const {
-  const FishTrack& fish = impl(*this).fish;
-  return fish.contour.first(static_cast<std::size_t>(fish.contour_count));
+std::span<const Vec2> Capture::contour(int fish) const {
+  const FishTrack& one = impl(*this).the_fish(fish);
+  return one.contour.first(static_cast<std::size_t>(one.contour_count));
 }
-std::span<const Vec2> Capture::smooth_contour() const {
-  const FishTrack& fish = impl(*this).fish;
-  return fish.pose.ok() ? fish.smooth : std::span<const Vec2>{};
+std::span<const Vec2> Capture::smooth_contour(int fish) const {
+  const FishTrack& one = impl(*this).the_fish(fish);
+  return one.pose.ok() ? one.smooth : std::span<const Vec2>{};
 }
 const char* Capture::background_name() const { return impl(*this).background->name(); }
 uint64_t Capture::integer_hash() const { return impl(*this).hash; }
 std::size_t Capture::bytes_used() const { return impl(*this).bytes_used; }
-int Capture::contour_points_high_water() const { return impl(*this).fish.contour_high_water; }
+int Capture::contour_points_high_water() const {
+  int most = 0;
+  for (const FishTrack& one : impl(*this).fish) most = max_int(most, one.contour_high_water);
+  return most;
+}
 
 const char* limit_to_raise(StepFlag flag) {
   switch (flag) {

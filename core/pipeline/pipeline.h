@@ -20,6 +20,8 @@
 
 namespace nt {
 
+inline constexpr int kMostFish = 16;
+
 struct CaptureSettings {
   BackgroundSettings background;
   int u_num = 3;
@@ -29,6 +31,7 @@ struct CaptureSettings {
   int min_area_px = 0;       // smaller blobs are dropped; 0 = 1/4000 of the frame
   bool shadows = true;       // Otsu shadow removal, where the background model can have shadows at all
   int lost_after = 30;       // frames without the target until it counts as lost and selection starts anew
+  int max_fish = 1;          // with a pose at a time, 1 to kMostFish; the target is one of them
   uint64_t seed = 1;         // of the background model's random choices
   bool fingerprint = false;  // compute integer_hash(); tests compare it between machines
 };
@@ -80,12 +83,19 @@ class Capture {
   void select_auto();
   void relearn();  // forget the background and start again with the next frame
 
-  const FishPose& pose() const;  // of the last step
-  const Motion& motion() const;  // of the last step that gave a pose
-  float init_len() const;        // axis length in the first tracked frame, pixels; 0 before (Eq 15)
+  // Fish are numbered 0 to fish_count() - 1 and keep their number for as long as they are followed, through crossings too.
+  // One that was lost for good and comes back is known again by its looks at best.
+  static constexpr int kTarget = -1;  // the selected one, whatever its number
+  int fish_count() const;             // CaptureSettings::max_fish
+  int target() const;                 // its number
+
+  const FishPose& pose(int fish = kTarget) const;  // of the last step
+  const Motion& motion(int fish = kTarget) const;  // of the last step that gave a pose
+  float init_len(int fish = kTarget) const;        // axis length in the first tracked frame, pixels; 0 before (Eq 15)
   std::span<const BlobView> blobs() const;
-  std::span<const Vec2> contour() const;         // original outline of the fish, last step; empty without a pose
-  std::span<const Vec2> smooth_contour() const;  // its elliptic Fourier reconstruction
+  // Original outline of the fish, last step, and its elliptic Fourier reconstruction; empty without a pose.
+  std::span<const Vec2> contour(int fish = kTarget) const;
+  std::span<const Vec2> smooth_contour(int fish = kTarget) const;
   const char* background_name() const;
   uint64_t integer_hash()
       const;  // of all integer stages of the last step: masks, blobs, contour (settings.fingerprint)

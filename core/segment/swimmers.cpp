@@ -166,11 +166,11 @@ void Swimmers::forget(uint32_t id) {
 }
 
 void Swimmers::update(std::span<const Blob> blobs, std::span<const Run> runs, LumaView luma) {
+  drop_the_lost();
   look_at(blobs, runs, luma);
   match(blobs);
   find_heaps(blobs);
   welcome(blobs);
-  drop_the_lost();
 }
 
 // Brightness of the blobs, every fourth pixel of every second row.

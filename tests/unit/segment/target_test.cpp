@@ -24,46 +24,48 @@ Blob fish_at(float x, float y) { return ellipse({x, y}, 40, 10); }
 
 using Scene = std::vector<Blob>;
 
-TEST(Target, LikenessIsThatOfALongFilledWholeBlob) {
-  const Blob fish = fish_at(100, 100);
-  EXPECT_GT(fish_likeness(fish), 0.9f);
-  EXPECT_LT(fish_likeness(ellipse({100, 100}, 20, 20)), 0.2f);
-  Blob crack = fish, cut = fish, ghost = fish;
-  crack.area_px /= 3, cut.touches_edge = true, ghost.ghost = true;
-  EXPECT_LT(fish_likeness(crack), 0.2f);
-  EXPECT_LT(fish_likeness(cut), 0.5f * fish_likeness(fish));
-  EXPECT_EQ(fish_likeness(ghost), 0);
-  Blob dot;
-  dot.area_px = 1;
-  EXPECT_GE(fish_likeness(dot), 0);
-}
-
-TEST(Target, NothingIsAbsent) {
+// The target among the swimmers of one film.
+struct Film {
+  Swimmers swimmers;
   Target target;
+  uint32_t before = 0;
+
+  // The target's blob in this frame, -1 for none.
+  int see(const Scene& scene) {
+    before = target.id();
+    swimmers.update(scene, {}, {});
+    target.update(swimmers, scene);
+    Swimmer* s = swimmers.find(target.id());
+    if (s == nullptr) return -1;
+    s->followed = true;
+    return s->blob;
+  }
+  bool changed() const { return target.id() != before; }
+  Swimmer& fish() { return *swimmers.find(target.id()); }
+};
+
+TEST(Target, NothingIsNobody) {
+  Film film;
   for (int n = 0; n < 50; ++n) {
-    const TargetChoice choice = target.update({});
-    EXPECT_EQ(choice.blob, -1);
-    EXPECT_EQ(choice.status, PoseStatus::absent);
+    EXPECT_EQ(film.see({}), -1);
+    EXPECT_EQ(film.target.id(), 0u);
   }
 }
 
 TEST(Target, TheLargestFishShapedBlobIsTakenAtOnce) {
-  Target target;
+  Film film;
   const Scene scene{ellipse({50, 50}, 30, 8), fish_at(200, 80), ellipse({350, 150}, 45, 45)};
-  const TargetChoice choice = target.update(scene);
-  EXPECT_EQ(choice.blob, 1);
-  EXPECT_EQ(choice.status, PoseStatus::ok);
-  EXPECT_TRUE(target.changed());
-  (void)target.update(scene);
-  EXPECT_FALSE(target.changed());
+  EXPECT_EQ(film.see(scene), 1);
+  EXPECT_TRUE(film.changed());
+  EXPECT_EQ(film.see(scene), 1);
+  EXPECT_FALSE(film.changed());
 }
 
 TEST(Target, WhatSwimsIsPreferredToWhatRests) {
-  Target target;
+  Film film;
   int chosen = -1;
   for (int n = 0; n < 30; ++n) {
-    const Scene scene{fish_at(100, 40), ellipse({100 + 5.0f * static_cast<float>(n), 150}, 34, 8)};
-    chosen = target.update(scene).blob;
+    chosen = film.see({fish_at(100, 40), ellipse({100 + 5.0f * static_cast<float>(n), 150}, 34, 8)});
     if (n == 0) {
       EXPECT_EQ(chosen, 0) << "the larger one, while both rest";
     }
@@ -71,106 +73,61 @@ TEST(Target, WhatSwimsIsPreferredToWhatRests) {
   EXPECT_EQ(chosen, 1);
 }
 
-TEST(Target, KeepsItsFishWhileAnotherPassesNearby) {
-  Target target;
-  target.select_at({100, 100});
-  for (int n = 0; n < 60; ++n) {
-    const float x = 100 + 4.0f * static_cast<float>(n);
-    const Scene scene{fish_at(420 - 4.0f * static_cast<float>(n), 130), fish_at(x, 100)};
-    const TargetChoice choice = target.update(scene);
-    ASSERT_EQ(choice.blob, 1) << n;
-    (void)target.observe(scene[1].box, scene[1].centroid, static_cast<float>(scene[1].area_px), 100.0f);
-  }
-  EXPECT_NEAR(target.velocity().x, 4, 0.1f);
-}
-
 TEST(Target, IsLostForSoManyFramesAndThenStartsAnew) {
-  Target target;
-  target.set_lost_after(5);
-  const Scene scene{fish_at(100, 100)};
-  EXPECT_EQ(target.update(scene).blob, 0);
+  Film film;
+  film.swimmers.set_lost_after(5);
+  EXPECT_EQ(film.see({fish_at(100, 100)}), 0);
   for (int n = 1; n <= 6; ++n) {
-    EXPECT_EQ(target.update({}).status, PoseStatus::lost) << n;
-    EXPECT_EQ(target.lost_frames(), n);
+    EXPECT_EQ(film.see({}), -1) << n;
+    EXPECT_NE(film.target.id(), 0u) << n;
   }
-  EXPECT_EQ(target.update({}).status, PoseStatus::absent);
-  const Scene elsewhere{fish_at(400, 300)};
-  EXPECT_EQ(target.update(elsewhere).status, PoseStatus::ok) << "whatever swims in";
+  (void)film.see({});
+  EXPECT_EQ(film.target.id(), 0u);
+  EXPECT_EQ(film.see({fish_at(400, 300)}), 0) << "whatever swims in";
 }
 
-TEST(Target, ReturnsToItsFishAfterAShortGap) {
-  Target target;
-  const Scene scene{fish_at(100, 100)};
-  (void)target.update(scene);
-  for (int n = 0; n < 3; ++n) (void)target.update({});
-  EXPECT_EQ(target.update(scene).blob, 0);
-  EXPECT_FALSE(target.changed()) << "still the same fish";
-  EXPECT_EQ(target.lost_frames(), 0);
+TEST(Target, AfterALossItsLikeIsPreferred) {
+  Film film;
+  film.swimmers.set_lost_after(5);
+  for (int n = 0; n < 40; ++n) EXPECT_EQ(film.see({fish_at(100 + 2.0f * static_cast<float>(n), 100)}), 0);
+  for (int n = 0; n < 10; ++n) (void)film.see({});
+  EXPECT_EQ(film.see({ellipse({300, 60}, 52, 13), fish_at(300, 200)}), 1) << "not the larger one";
 }
 
 TEST(Target, AClickSelectsTheBlobUnderIt) {
-  Target target;
+  Film film;
   const Scene scene{fish_at(100, 100), fish_at(300, 100), ellipse({300, 200}, 8, 8)};
-  (void)target.update(scene);
-  target.select_at({302, 203});
-  EXPECT_EQ(target.update(scene).blob, 2);
-  EXPECT_TRUE(target.changed());
-  for (int n = 0; n < 40; ++n) EXPECT_EQ(target.update(scene).blob, 2) << "the user's choice stands";
-  target.select_auto();
-  EXPECT_NE(target.update(scene).blob, 2);
+  (void)film.see(scene);
+  film.target.select_at({302, 203});
+  EXPECT_EQ(film.see(scene), 2);
+  EXPECT_TRUE(film.changed());
+  for (int n = 0; n < 40; ++n) EXPECT_EQ(film.see(scene), 2) << "the user's choice stands";
+  film.target.select_auto();
+  EXPECT_NE(film.see(scene), 2);
 }
 
 TEST(Target, AClickIntoAnEmptyPictureWaitsForABlob) {
-  Target target;
-  target.select_at({300, 100});
-  EXPECT_EQ(target.update({}).blob, -1);
-  const Scene scene{fish_at(100, 100), fish_at(300, 100)};
-  EXPECT_EQ(target.update(scene).blob, 1);
+  Film film;
+  film.target.select_at({300, 100});
+  EXPECT_EQ(film.see({}), -1);
+  EXPECT_EQ(film.see({fish_at(100, 100), fish_at(300, 100)}), 1);
 }
 
-TEST(Target, NextGoesRoundAllBlobs) {
-  Target target;
+TEST(Target, NextGoesRoundAllSwimmers) {
+  Film film;
   const Scene scene{fish_at(300, 50), fish_at(100, 120), fish_at(500, 90)};
-  target.select_at({300, 50});
-  EXPECT_EQ(target.update(scene).blob, 0);
+  film.target.select_at({300, 50});
+  EXPECT_EQ(film.see(scene), 0);
   std::vector<int> order;
-  for (int n = 0; n < 4; ++n) target.select_next(), order.push_back(target.update(scene).blob);
+  for (int n = 0; n < 4; ++n) film.target.select_next(), order.push_back(film.see(scene));
   EXPECT_EQ(order, (std::vector<int>{2, 1, 0, 2}));
 }
 
-TEST(Target, ABlobAtTheEdgeIsPartial) {
-  Target target;
-  Scene scene{fish_at(100, 100)};
-  (void)target.update(scene);
-  scene[0].touches_edge = true;
-  EXPECT_EQ(target.update(scene).status, PoseStatus::partial);
-}
-
 TEST(Target, AGhostIsNeverTheFish) {
-  Target target;
+  Film film;
   Scene scene{fish_at(100, 100)};
   scene[0].ghost = true;
-  EXPECT_EQ(target.update(scene).blob, -1);
-}
-
-TEST(Target, AnOutlineThatSuddenlyEnclosesMuchMoreIsAMergedOne) {
-  Target target;
-  target.set_lost_after(4);
-  const Scene scene{fish_at(100, 100)};
-  for (int n = 0; n < 5; ++n) {
-    (void)target.update(scene);
-    EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1250, 100.0f));
-  }
-  (void)target.update(scene);
-  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 1600, 100.0f)) << "fins that opened";
-  for (int n = 0; n < 4; ++n) {
-    (void)target.update(scene);
-    EXPECT_FALSE(target.observe(scene[0].box, scene[0].centroid, 2800, 100.0f));
-  }
-  (void)target.update(scene);
-  EXPECT_TRUE(target.observe(scene[0].box, scene[0].centroid, 2800, 100.0f)) << "it stays so: this is the fish now";
-  (void)target.update(scene);
-  EXPECT_FALSE(target.observe(scene[0].box, scene[0].centroid, 2800, 50.0f)) << "half the axis: closed into a ring";
+  EXPECT_EQ(film.see(scene), -1);
 }
 
 }  // namespace

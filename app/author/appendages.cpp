@@ -13,6 +13,7 @@ constexpr double kTubeSlack = 1.15, kTubeSlack_px = 2;  // the tube is this much
 constexpr double kLeastArea = 0.006;                    // of the figure
 constexpr double kLeastReach = 0.07;                    // of the length, from root to tip
 constexpr double kFirstRoot = 0.04, kLastRoot = 0.85;   // farther back it is the tail's own fin
+constexpr float kBroadest = 1.5f;                       // root over reach: a bulge is no fin
 constexpr double kPairApart = 0.2;                      // of the length: roots of a pair lie closer
 constexpr double kSecondArea = 0.3;                     // of the first pair's: less is trimming
 
@@ -74,7 +75,8 @@ bool measure(const cv::Mat& part, const cv::Mat& body_tube, std::span<const Vec2
   if (out.root < kFirstRoot || out.root > kLastRoot) return false;
   if (static_cast<double>(farthest) < kLeastReach * static_cast<double>(axis.length)) return false;
   for (Vec2* p : {&out.points.top, &out.points.bottom, &out.points.tip}) *p = nearest_point(outline, *p);
-  if (length(out.points.top - out.points.bottom) < 2) return false;
+  const float broad = length(out.points.top - out.points.bottom);
+  if (broad < 2 || broad > kBroadest * farthest) return false;
   // With y down, cross(tangent, p) > 0 lies clockwise of the way from head to tail: the left of a swimmer.
   side = cross(tangent_at(axis, static_cast<float>(out.root)), root - point_at(axis, static_cast<float>(out.root)));
   out.points.present = true;

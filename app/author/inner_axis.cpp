@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace nt {
 namespace {
 
-constexpr int kRounds = 12;        // of smoothing: about 3 stations of a Gaussian
-constexpr float kEndSlack_px = 4;  // an end on the outline may lie just outside
-constexpr float kRayReach = 1.6f;  // of the body's half width: beyond it a ray is in a fin
+constexpr int kRounds = 12;           // of smoothing: about 3 stations of a Gaussian
+constexpr float kEndSlack_px = 4;     // an end on the outline may lie just outside
+constexpr float kWidestBody = 1.25f;  // of the distance from the axis to the nearest outline
+constexpr float kRayReach = 1.6f;     // of the body's half width: beyond it a ray is in a fin
 
 bool in_mask(const cv::Mat& mask, Vec2 p) {
   const int x = static_cast<int>(std::lround(p.x)), y = static_cast<int>(std::lround(p.y));
@@ -94,7 +96,7 @@ InnerAxis inner_axis(const cv::Mat& mask, std::span<const Vec2> outline, const P
   inner.axis = resampled(between_ends(outline, path, twin));
   if (twin && !inside_figure(mask, inner.axis.points)) inner.axis = resampled(between_ends(outline, path, {}));
   smooth_inside(mask, inner.axis);
-  inner.body = body_along(outline, inner.axis);
+  inner.body = body_along(mask, outline, inner.axis);
   return inner;
 }
 
@@ -113,12 +115,19 @@ StationValues centredness(const cv::Mat& mask, const Axis& axis, const StationVa
   return out;
 }
 
-StationValues body_along(std::span<const Vec2> outline, const Axis& axis) {
+StationValues body_along(const cv::Mat& mask, std::span<const Vec2> outline, const Axis& axis) {
+  cv::Mat depth;
+  cv::distanceTransform(mask, depth, cv::DIST_L2, 5);
   std::vector<AlongAxis> along(outline.size());
   const Stretch right = right_side(outline, axis);
   project_outline(outline, right, axis, along);
   StationValues body = body_half_width(width_profile(along, right));
-  for (float& v : body) v = std::max(v, 1.0f);
+  for (std::size_t j = 0; j < body.size(); ++j) {
+    // A claw that reaches ahead of the head counts as width there; the nearest outline says otherwise.
+    const int x = std::clamp(static_cast<int>(std::lround(axis.points[j].x)), 0, mask.cols - 1);
+    const int y = std::clamp(static_cast<int>(std::lround(axis.points[j].y)), 0, mask.rows - 1);
+    body[j] = std::clamp(body[j], 1.0f, kWidestBody * depth.at<float>(y, x) + 1);
+  }
   return body;
 }
 

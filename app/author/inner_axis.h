@@ -27,6 +27,6 @@ InnerAxis inner_axis(const cv::Mat& mask, std::span<const Vec2> outline, const P
 StationValues centredness(const cv::Mat& mask, const Axis& axis, const StationValues& body);
 
 // The body's half widths along any axis.
-StationValues body_along(std::span<const Vec2> outline, const Axis& axis);
+StationValues body_along(const cv::Mat& mask, std::span<const Vec2> outline, const Axis& axis);
 
 }  // namespace nt

@@ -163,7 +163,7 @@ Proposal propose_landmarks(const std::string& name, const cv::Mat& mask, const c
     throw UserError(name + ": the figure has no head and tail to be found; give a longer figure, or --head");
   }
   if (out.by_capture) {
-    body = body_along(clockwise, axis);
+    body = body_along(mask, clockwise, axis);
     copy_fins(out.pose, out);
   } else {
     const InnerAxis inner = inner_axis(mask, clockwise, ends.path, ends.tail_twin);

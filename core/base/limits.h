@@ -9,12 +9,13 @@ namespace nt {
 struct Limits {
   int max_width = 960;  // pixels of the working frame
   int max_height = 544;
-  int max_runs = 16384;           // horizontal runs of foreground over the whole mask, after cleaning
-  int max_blobs = 1024;           // connected components
-  int max_contour_points = 8192;  // of the fish's outer border
-  int max_control_points = 64;    // of a character
-  int max_vertices = 8192;        // of a character
-  int max_triangles = 16384;      // of a character
+  int max_runs = 16384;             // horizontal runs of foreground over the whole mask, after cleaning
+  int max_blobs = 1024;             // connected components
+  int max_contour_points = 8192;    // of the fish's outer border
+  int max_control_points = 64;      // of a character
+  int max_vertices = 8192;          // of a character
+  int max_triangles = 16384;        // of a character
+  int max_lattice_vertices = 2000;  // of a control lattice; 0.6 KB each (core/deform/lattice.h)
 };
 
 }  // namespace nt

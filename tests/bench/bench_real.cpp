@@ -46,6 +46,8 @@ void print_odd(const RealAccuracy& a) {
   }
 }
 
+constexpr int kWide = 800, kHigh = 600;
+
 void write_pictures(const RealAccuracy& a, const Options& o) {
   const std::vector<cv::Mat> frames = nt::test::read_grey(o.folder + "/" + a.file);
   for (const RealFrame& f : a.all) {
@@ -57,7 +59,7 @@ void write_pictures(const RealAccuracy& a, const Options& o) {
       const int margin = 8 + std::max(fish.width, fish.height) / 8;
       box &= cv::Rect(fish.x - margin, fish.y - margin, fish.width + 2 * margin, fish.height + 2 * margin);
     }
-    const double scale = 900.0 / std::max(box.width, box.height);
+    const double scale = std::min(double{kWide} / box.width, double{kHigh} / box.height);
     cv::resize(picture(box), picture, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_NEAREST);
     const auto at = [&](double x, double y) {
       return cv::Point(cvRound((x - box.x + 0.5) * scale), cvRound((y - box.y + 0.5) * scale));
@@ -81,8 +83,10 @@ void write_pictures(const RealAccuracy& a, const Options& o) {
     }
     cv::putText(picture, std::to_string(f.index) + " " + nt::to_string(f.pose.status), {4, 16},
                 cv::FONT_HERSHEY_SIMPLEX, 0.5, {0, 0, 255});
+    // One size for all, so that ffmpeg makes a film or a sheet of them.
+    cv::copyMakeBorder(picture, picture, 0, kHigh - picture.rows, 0, kWide - picture.cols, cv::BORDER_CONSTANT);
     char name[64];
-    std::snprintf(name, sizeof name, "/%.12s-%04d.png", a.file.c_str(), f.index);
+    std::snprintf(name, sizeof name, "/%.18s-%04d.png", a.file.c_str(), f.index);
     cv::imwrite(o.pictures + name, picture);
   }
 }

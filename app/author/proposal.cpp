@@ -2,6 +2,7 @@
 #include "app/author/proposal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -34,9 +35,10 @@ bool capture_landmarks(std::span<const Vec2> outline, cv::Size size, const Figur
   Arena arena(block.bytes());
   Landmarks* landmarks = Landmarks::create(arena, limits, settings);
   LandmarkHints hints;
+  std::array<Vec2, 2> told;
   if (!ends.path.points.empty()) {
-    hints.has_last = true, hints.head_log_odds = kToldOdds;
-    hints.last_head = ends.path.points.front(), hints.last_tail = ends.path.points.back();
+    told = {ends.path.points.front(), ends.path.points.back()};
+    hints.last = told, hints.head_log_odds = kToldOdds;
   }
   if (landmarks == nullptr || !landmarks->find(outline, hints, pose)) return false;
   pose.status = PoseStatus::ok;

@@ -17,6 +17,8 @@ constexpr float kRepeatedEvidence = 0.2f;
 constexpr float kShortest_px = 8.0f;  // below it the outline's pixel steps are the shape
 constexpr float kRoundest = 1.35f;    // length^2 / area: a disc has 1.27, an angelfish 1.5, a trout 8
 constexpr int kArcReach = 4;          // points: a ragged rim is not longer than a smooth one
+constexpr float kBent = 0.6f;         // a straight fish is 0.8 to 0.95 of half its outline, a ring 0.3
+constexpr float kBeforeTail = 0.7f;   // of a bent fish's axis: from here its tail fin is looked at
 constexpr int kRounds = 2;            // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kTrim = 0.05f;
@@ -30,6 +32,7 @@ struct LandmarksImpl final : Landmarks {
   Axis axis;
   float log_odds = 0;
   float area = 0;
+  OrderStep step;
   bool was_swapped = false;
   bool found = false;
 
@@ -48,21 +51,16 @@ int index_gap(int from, int to, int n) { return ((to - from) % n + n) % n; }
 
 // Which end of the axis is the head: true when it is the first. Updates the belief.
 bool LandmarksImpl::decide_order(const LandmarkHints& hints) {
-  const float evidence = order_evidence(smooth, axis, hints.travel);
-  const Vec2 first = axis.points[0], last = axis.points[kStations - 1];
+  const float evidence = order_evidence(smooth, axis, hints.travel) + contrast_evidence(axis, hints.luma, hints.ground);
+  const float same_way = !hints.last.empty() ? hints.trust * continuity(axis, hints.last) : 0.0f;
   float belief = evidence;  // that axis.points[0] is the head
-  bool same_order = true;
-  if (hints.has_last) {
-    const float same = length(first - hints.last_head) + length(last - hints.last_tail);
-    const float crossed = length(first - hints.last_tail) + length(last - hints.last_head);
-    same_order = same <= crossed;
-    const float carried = carried_belief(hints.head_log_odds);
-    belief = (same_order ? carried : -carried) + kRepeatedEvidence * evidence;
-  }
+  if (!hints.last.empty()) belief = agreed(hints.head_log_odds, same_way) + kRepeatedEvidence * evidence;
   belief = det::clamp(belief, -8.0f, 8.0f);
+  const bool first = belief >= 0;
   log_odds = det::abs(belief);
-  was_swapped = hints.has_last && (belief >= 0) != same_order;
-  return belief >= 0;
+  was_swapped = !hints.last.empty() && first != (same_way >= 0);
+  step = {kRepeatedEvidence * (first ? evidence : -evidence), first ? same_way : -same_way};
+  return first;
 }
 
 void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body,
@@ -110,7 +108,8 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   const float perimeter = arcs[n];
 
   // First guess of the ends, the paper's axis between them, then which end is which.
-  const Ends ends = find_ends(c, arcs, moments.centroid);
+  Ends ends = find_ends(c, arcs, moments.centroid);
+  const bool bent = length(at(c, ends.head) - at(c, ends.tail)) < kBent * 0.5f * perimeter && find_tips(c, arcs, ends);
   const EllipticFourier fourier = fit_fourier(c, arcs, settings.harmonics);
   const auto t = [&](int i) { return arcs[static_cast<std::size_t>(i)] / perimeter; };
   axis = medial_axis(fourier, t(ends.head), t(ends.tail), smooth);
@@ -118,7 +117,8 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
   if (!(axis.length >= kShortest_px) || axis.length * axis.length < kRoundest * area) return false;
   const bool kept = decide_order(hints);
   const int head = kept ? ends.head : ends.tail;
-  const int tail = notch_of_tail(c, arcs, moments.centroid, kept ? ends.tail : ends.head);
+  const Vec2 body_point = bent ? point_at(axis, kept ? kBeforeTail : 1 - kBeforeTail) : moments.centroid;
+  const int tail = notch_of_tail(c, arcs, body_point, kept ? ends.tail : ends.head);
   axis = medial_axis(fourier, t(head), t(tail), smooth);
 
   // Ours: centre the axis in the original outline.
@@ -169,6 +169,7 @@ bool Landmarks::find(std::span<const Vec2> contour, const LandmarkHints& hints, 
 }
 float Landmarks::head_log_odds() const { return impl(*this).log_odds; }
 float Landmarks::area_px() const { return impl(*this).area; }
+OrderStep Landmarks::order() const { return impl(*this).step; }
 bool Landmarks::swapped() const { return impl(*this).was_swapped; }
 std::span<const Vec2> Landmarks::smooth_contour() const { return impl(*this).smooth; }
 std::span<const Vec2> Landmarks::midline() const { return impl(*this).axis.points; }

@@ -9,8 +9,10 @@
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/image_view.h"
 #include "core/base/limits.h"
 #include "core/landmarks/fish_pose.h"
+#include "core/landmarks/order_step.h"
 
 namespace nt {
 
@@ -22,10 +24,13 @@ struct LandmarkSettings {
 
 // What is known from elsewhere about which end is the head. All optional.
 struct LandmarkHints {
-  bool has_last = false;  // the ends of the last frame's fish, moved to where they should be now
-  Vec2 last_head, last_tail;
-  float head_log_odds = 0;  // belief so far that last_head really is the head (natural log of odds)
+  // The last frame's axis, moved to where it should be now: points evenly spaced from its head to its tail, at least these
+  // two. Empty when there is none.
+  std::span<const Vec2> last;
+  float head_log_odds = 0;  // belief so far that last.front() really is the head (natural log of odds)
+  float trust = 1;          // 0..1, in `last`: less after a gap
   Vec2 travel;              // displacement of the centre over the last frames, pixels; 0 when at rest
+  LumaView luma, ground;    // the picture and what it would be without the fish; without data when unknown
 };
 
 class Landmarks {
@@ -39,6 +44,7 @@ class Landmarks {
   float head_log_odds() const;                   // belief after the last find
   float area_px() const;                         // inside the outline of the last find
   bool swapped() const;                          // the last find reversed the order that the hints had
+  OrderStep order() const;                       // of the last find
   std::span<const Vec2> smooth_contour() const;  // elliptic Fourier reconstruction of the last find
   std::span<const Vec2> midline() const;         // dense medial axis of the last find, head to tail
 };

@@ -128,13 +128,15 @@ float FishTrack::enclosed_px() const {
   return det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
 }
 
-LandmarkHints FishTrack::hints(const Swimmer& swimmer) const {
+LandmarkHints FishTrack::hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const {
   LandmarkHints hints;
-  hints.has_last = has_last_;
   const Vec2 moved = swimmer.velocity * static_cast<float>(frames_without_pose_ + 1);
-  hints.last_head = last_head_ + moved, hints.last_tail = last_tail_ + moved;
+  for (std::size_t i = 0; i < last.size(); ++i) last[i] = last_axis_[i] + moved;
+  if (has_last_) hints.last = last;
   hints.head_log_odds = head_log_odds_;
+  hints.trust = 1.0f - static_cast<float>(frames_without_pose_) / (kForgetOrder + 1);
   hints.travel = has_last_ ? travel_ : swimmer.velocity * kTravelFrames;
+  hints.luma = tools.frame.luma, hints.ground = tools.background.estimate();
   return hints;
 }
 
@@ -145,7 +147,8 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   if (changed || frames_without_pose_ > kForgetOrder) has_last_ = false, head_log_odds_ = 0;
   if (changed) init_len = 0;
   Landmarks& landmarks = tools.landmarks;
-  const bool found = landmarks.find(points(), hints(swimmer), pose);
+  Vec2 last[kOrderPoints];
+  const bool found = landmarks.find(points(), hints(tools, swimmer, last), pose);
   tools.clock.lap(Stage::landmarks);
   if (!found ||
       !swimmer.observe(box, pose.centre, landmarks.area_px(), pose.axis_len, touching_, tools.settings.lost_after))
@@ -163,7 +166,11 @@ void FishTrack::remember(const Landmarks& landmarks) {
   head_log_odds_ = landmarks.head_log_odds();
   // Travel over about the last kTravelFrames, as a running sum that forgets.
   travel_ = has_last_ ? travel_ * (1.0f - 1.0f / kTravelFrames) + (pose.centre - last_centre_) : Vec2{};
-  last_head_ = pose.head, last_tail_ = pose.tail, last_centre_ = pose.centre;
+  const std::span<const Vec2> midline = landmarks.midline();
+  for (int i = 0; i < kOrderPoints; ++i)
+    last_axis_[i] = midline[static_cast<std::size_t>(i * (kStations - 1) / (kOrderPoints - 1))];
+  last_centre_ = pose.centre;
+  order = landmarks.order();
   has_last_ = true;
   frames_without_pose_ = 0;
   if (init_len == 0) init_len = pose.axis_len;

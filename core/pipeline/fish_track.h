@@ -36,11 +36,14 @@ struct CaptureTools {
 };
 
 struct FishTrack {
+  static constexpr int kOrderPoints = 9;  // along the axis, by which a pose is compared with the last
+
   uint32_t swimmer_id = 0;  // 0: nobody
   Looks looks;              // of the last swimmer
   FishPose pose;            // of the last step
   Motion motion;            // of the last step with a pose
   bool has_motion = false;
+  OrderStep order;             // of the last step with a pose
   float init_len = 0;          // axis length in the first frame with a pose, pixels
   std::span<Vec2> contour;     // room for Limits::max_contour_points
   std::span<Vec2> smooth;      // elliptic Fourier reconstruction; means something with a pose
@@ -64,12 +67,12 @@ struct FishTrack {
   bool measure_contour(int width, int height);
   float enclosed_px() const;
   PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
-  LandmarkHints hints(const Swimmer& swimmer) const;
+  LandmarkHints hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const;
   void remember(const Landmarks& landmarks);
   void protect_from_learning(const FishMask& fish);
   std::span<const Vec2> points() const { return contour.first(static_cast<std::size_t>(contour_count)); }
 
-  Vec2 last_head_, last_tail_, last_centre_, travel_;
+  Vec2 last_axis_[kOrderPoints], last_centre_, travel_;
   float head_log_odds_ = 0;
   bool has_last_ = false;
   bool touching_ = false;  // what was outlined holds a part of another one

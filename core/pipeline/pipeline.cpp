@@ -290,6 +290,7 @@ int Capture::target() const { return impl(*this).target_fish; }
 const FishPose& Capture::pose(int fish) const { return impl(*this).the_fish(fish).pose; }
 const Motion& Capture::motion(int fish) const { return impl(*this).the_fish(fish).motion; }
 float Capture::init_len(int fish) const { return impl(*this).the_fish(fish).init_len; }
+OrderStep Capture::order(int fish) const { return impl(*this).the_fish(fish).order; }
 std::span<const BlobView> Capture::blobs() const {
   return impl(*this).views.first(static_cast<std::size_t>(impl(*this).view_count));
 }

@@ -15,6 +15,7 @@
 #include "core/base/status.h"
 #include "core/frame/frame.h"
 #include "core/landmarks/fish_pose.h"
+#include "core/landmarks/order_step.h"
 #include "core/motion/motion.h"
 #include "core/segment/background.h"
 
@@ -92,6 +93,8 @@ class Capture {
   const FishPose& pose(int fish = kTarget) const;  // of the last step
   const Motion& motion(int fish = kTarget) const;  // of the last step that gave a pose
   float init_len(int fish = kTarget) const;        // axis length in the first tracked frame, pixels; 0 before (Eq 15)
+  // Of the last step that gave a pose: what it says of head and tail, for an OrderPass.
+  OrderStep order(int fish = kTarget) const;
   std::span<const BlobView> blobs() const;
   // Original outline of the fish, last step, and its elliptic Fourier reconstruction; empty without a pose.
   std::span<const Vec2> contour(int fish = kTarget) const;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/motion/order.h"
 #include "tests/support/block.h"
 
 namespace nt::test {
@@ -79,9 +80,32 @@ std::string what_is_false(const FishPose& ours, const TankTruth& truth, Accuracy
   return heap ? "false pose: two fish taken for one" : "";
 }
 
+int confidence_bin(float confidence) {
+  if (confidence >= 0.99f) return Accuracy::kBins - 1;
+  return std::clamp(static_cast<int>(10.0f * confidence) - 5, 0, Accuracy::kBins - 2);
+}
+
+// Of a closed ring the ends lie together: both count.
+bool wrong_end(const FishPose& ours, const FishPose& real) {
+  return length(ours.head - real.head) + length(ours.tail - real.tail) >
+         length(ours.head - real.tail) + length(ours.tail - real.head);
+}
+
 class Scorer {
  public:
   Scorer(const OddFrame& odd, Accuracy& out) : odd_(odd), out_(out) {}
+
+  // Every frame, scored or not.
+  void follow(const Capture& capture) {
+    if (!capture.pose().ok()) return;
+    steps_.push_back(order_.add(capture.order()));
+    wrong_.push_back(kNotScored);
+  }
+  void look_back() {
+    order_.trace_back(steps_);
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+      out_.wrong_after += wrong_[i] != kNotScored && wrong_[i] != steps_[i];
+  }
 
   void score(const FishPose& ours, const TankTruth& truth, int64_t frame) {
     const bool visible = truth.visible && !truth.covered;
@@ -97,8 +121,11 @@ class Scorer {
     if (!ours.ok()) report(frame, std::string("missed: ") + to_string(ours.status));
     if (!right) return;
     ++out_.posed;
-    if (length(ours.head - truth.pose.tail) < length(ours.head - truth.pose.head)) {
-      ++out_.wrong_end;
+    const int bin = confidence_bin(ours.confidence.head);
+    ++out_.sure_poses[bin];
+    wrong_.back() = wrong_end(ours, truth.pose);
+    if (wrong_.back() == 1) {
+      ++out_.wrong_end, ++out_.sure_wrong[bin];
       report(frame, "wrong end");
     }
     score_pose(ours, truth, out_);
@@ -111,6 +138,9 @@ class Scorer {
   const OddFrame& odd_;
   Accuracy& out_;
   int waited_ = 0;
+  static constexpr uint8_t kNotScored = 2;
+  OrderPass order_;
+  std::vector<uint8_t> steps_, wrong_;  // one entry a pose
 };
 
 }  // namespace
@@ -138,10 +168,11 @@ double quantile(std::vector<float> values, double q) {
 
 void Accuracy::add(const Accuracy& other) {
   scored += other.scored, visible += other.visible, posed += other.posed;
-  wrong_end += other.wrong_end, false_poses += other.false_poses, wrong_fish += other.wrong_fish;
+  wrong_end += other.wrong_end, wrong_after += other.wrong_after, false_poses += other.false_poses, wrong_fish += other.wrong_fish;
   longest_wait = std::max(longest_wait, other.longest_wait);
   fins_open += other.fins_open, fins_found += other.fins_found;
   fins_claimed += other.fins_claimed, fins_true += other.fins_true;
+  for (int i = 0; i < kBins; ++i) sure_poses[i] += other.sure_poses[i], sure_wrong[i] += other.sure_wrong[i];
   const auto append = [](std::vector<float>& to, const std::vector<float>& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
@@ -168,8 +199,10 @@ Accuracy measure_accuracy(const AccuracyRun& run, const OddFrame& odd) {
     frame.sequence = static_cast<uint64_t>(n);
     frame.timestamp_ns = static_cast<int64_t>(1e9 * n / run.tank.fps);
     capture.step(frame);
+    scorer.follow(capture);
     if (n >= run.warm_up) scorer.score(capture.pose(), tank.truth(), n);
   }
+  scorer.look_back();
   return out;
 }
 

@@ -29,7 +29,8 @@ struct Accuracy {
   int scored = 0;       // frames after the warm-up
   int visible = 0;      // of these, with the fish wholly inside the frame and under no other
   int posed = 0;        // of the visible ones, with a pose
-  int wrong_end = 0;    // our head is nearer to the true tail than to the true head
+  int wrong_end = 0;    // head and tail lie nearer to each other's true places than to their own
+  int wrong_after = 0;  // still so after the pass over the whole run (core/motion/order)
   int false_poses = 0;  // a pose with no fish wholly visible, or more than half a body length from the fish
   int wrong_fish = 0;   // of these, at another fish
   // The longest that the fish was wholly visible without a pose of its own, frames: how long it took to be acquired again
@@ -42,6 +43,9 @@ struct Accuracy {
   // One entry per pose (fins: per open fin that was seen).
   std::vector<float> head, tail, centre, midline, fin_tip;  // % of the body length
   std::vector<float> direction;                             // degrees
+  // Poses and wrong ends by the confidence that was given: [0.5, 0.6), [0.6, 0.7) ... [0.9, 0.99), [0.99, 1].
+  static constexpr int kBins = 6;
+  int sure_poses[kBins] = {}, sure_wrong[kBins] = {};
 
   void add(const Accuracy& other);
   double pose_share() const { return visible > 0 ? static_cast<double>(posed) / visible : 0.0; }

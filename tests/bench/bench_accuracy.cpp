@@ -69,8 +69,8 @@ Options parse(int argc, char** argv) {
 }
 
 void print_row(const Accuracy& a, double fps) {
-  std::printf("%-14s %7d %7.2f %5d %5d %5d %5.2f  %6.2f %6.2f %6.2f %6.2f %6.2f  %6.2f %6.2f %6.2f  %5.1f %5.1f\n",
-              a.scene.c_str(), a.visible, 100 * a.pose_share(), a.wrong_end, a.false_poses, a.wrong_fish,
+  std::printf("%-14s %7d %7.2f %5d %5d %5d %5d %5.2f  %6.2f %6.2f %6.2f %6.2f %6.2f  %6.2f %6.2f %6.2f  %5.1f %5.1f\n",
+              a.scene.c_str(), a.visible, 100 * a.pose_share(), a.wrong_end, a.wrong_after, a.false_poses, a.wrong_fish,
               a.longest_wait / fps, quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5),
               quantile(a.midline, 0.5), quantile(a.fin_tip, 0.5), quantile(a.direction, 0.5),
               quantile(a.direction, 0.9), quantile(a.direction, 0.99), 100 * a.fin_recall(), 100 * a.fin_precision());
@@ -79,15 +79,26 @@ void print_row(const Accuracy& a, double fps) {
 
 void print_json(const Accuracy& a, bool last) {
   std::printf(
-      "  {\"scene\": \"%s\", \"frames\": %d, \"visible\": %d, \"posed\": %d, \"wrong_end\": %d, \"false_poses\": %d,\n"
+      "  {\"scene\": \"%s\", \"frames\": %d, \"visible\": %d, \"posed\": %d, \"wrong_end\": %d, "
+      "\"wrong_end_after_pass\": %d, \"false_poses\": %d,\n"
       "   \"wrong_fish\": %d, \"longest_wait_frames\": %d,\n"
       "   \"head_pct\": %.3f, \"tail_pct\": %.3f, \"centre_pct\": %.3f, \"midline_rms_pct\": %.3f, \"fin_tip_pct\": "
       "%.3f,\n"
       "   \"dir_median_deg\": %.3f, \"dir_p99_deg\": %.3f, \"fin_recall\": %.4f, \"fin_precision\": %.4f}%s\n",
-      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.false_poses, a.wrong_fish, a.longest_wait,
+      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.wrong_after, a.false_poses, a.wrong_fish, a.longest_wait,
       quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5),
       quantile(a.fin_tip, 0.5), quantile(a.direction, 0.5), quantile(a.direction, 0.99), a.fin_recall(),
       a.fin_precision(), last ? "" : ",");
+}
+
+// Is the confidence in head and tail what it says?
+void print_confidence(const Accuracy& a) {
+  constexpr const char* kNames[] = {"0.5-0.6", "0.6-0.7", "0.7-0.8", "0.8-0.9", "0.9-0.99", "0.99-1"};
+  std::printf("\n%-15s %9s %9s\n", "head confidence", "poses", "right, %");
+  for (int i = 0; i < Accuracy::kBins; ++i) {
+    const int n = a.sure_poses[i];
+    if (n > 0) std::printf("%-15s %9d %9.2f\n", kNames[i], n, 100.0 * (n - a.sure_wrong[i]) / n);
+  }
 }
 
 Accuracy measure_scene(const Options& o, const std::string& scene) {
@@ -116,8 +127,8 @@ int main(int argc, char** argv) try {
     std::printf(
         "%d seeds x %d frames, %dx%d; medians, %% of the body length; direction in degrees; fins in %%; wait: longest "
         "without a pose, s\n"
-        "%-14s %7s %7s %5s %5s %5s %5s  %6s %6s %6s %6s %6s  %6s %6s %6s  %5s %5s\n",
-        o.seeds, o.run.frames, o.run.tank.width, o.run.tank.height, "scene", "visible", "pose%", "wrong", "false",
+        "%-14s %7s %7s %5s %5s %5s %5s %5s  %6s %6s %6s %6s %6s  %6s %6s %6s  %5s %5s\n",
+        o.seeds, o.run.frames, o.run.tank.width, o.run.tank.height, "scene", "visible", "pose%", "wrong", "after", "false",
         "other", "wait", "head", "tail", "centre", "midl.", "fin", "dir50", "dir90", "dir99", "fRec", "fPrec");
   Accuracy all;
   all.scene = "all";
@@ -127,7 +138,7 @@ int main(int argc, char** argv) try {
     o.json ? print_json(a, i + 1 == o.scenes.size()) : print_row(a, o.run.tank.fps);
   }
   if (o.json) std::printf("]\n");
-  else print_row(all, o.run.tank.fps);
+  else print_row(all, o.run.tank.fps), print_confidence(all);
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "bench_accuracy: %s\n", e.what());

@@ -138,7 +138,8 @@ TEST(Landmarks, OneContraryFrameDoesNotFlipTheFishButManyDo) {
   auto landmarks = landmarks_for();
   FishPose pose;
   LandmarkHints hints;
-  hints.has_last = true, hints.last_head = fish.tail(), hints.last_tail = fish.head();  // the wrong way round
+  Vec2 last[] = {fish.tail(), fish.head()};
+  hints.last = last;  // the wrong way round
   hints.head_log_odds = 3;
   ASSERT_TRUE(landmarks->find(fish.contour(), hints, pose));
   expect_at(pose.head, fish.tail(), 4, "the belief holds");
@@ -146,7 +147,7 @@ TEST(Landmarks, OneContraryFrameDoesNotFlipTheFishButManyDo) {
   EXPECT_LT(landmarks->head_log_odds(), 3);
   int frames = 1;
   for (; frames < 40 && !landmarks->swapped(); ++frames) {
-    hints.last_head = pose.head, hints.last_tail = pose.tail, hints.head_log_odds = landmarks->head_log_odds();
+    last[0] = pose.head, last[1] = pose.tail, hints.head_log_odds = landmarks->head_log_odds();
     ASSERT_TRUE(landmarks->find(fish.contour(), hints, pose));
   }
   EXPECT_LT(frames, 40);

@@ -14,6 +14,8 @@
 namespace nt {
 namespace {
 
+constexpr int kLargestSide = 8192;
+
 const std::vector<std::string> kKinds = {"sim", "file"};
 const std::vector<std::string> kSimKeys = {"scene", "seed", "size", "fps", "frames"};
 
@@ -86,6 +88,9 @@ CameraSpec parse_camera_spec(const std::string& text) {
 }
 
 std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps) {
+  if (spec.kind == CameraSpec::Kind::file && !work) {
+    return open_file_camera(spec.path, kLargestSide, kLargestSide, fps, kDefaultWork.width * kDefaultWork.height);
+  }
   const Size size = work.value_or(kDefaultWork);
   if (spec.kind == CameraSpec::Kind::file) return open_file_camera(spec.path, size.width, size.height, fps);
   TankSettings tank = spec.tank;

@@ -28,7 +28,8 @@ CameraSpec parse_camera_spec(const std::string& text);
 
 inline constexpr Size kDefaultWork{960, 544};
 
-// `work` is the largest frame handed out: a larger file or tank is shrunk to fit, a smaller one is left as it is.
+// `work` is the largest frame handed out: a larger file or tank is shrunk to fit, a smaller one is left as it is. Without it
+// a file is shrunk to as many pixels as kDefaultWork has, whatever its shape: a square one would lose half of them in its box.
 // `fps` above 0 overrides the source's frame rate.
 std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps);
 

@@ -48,7 +48,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
       ->required();
   text(
       "--work-size", [&o](const std::string& s) { o.work = parse_size("--work-size", s); }, "WxH",
-      "largest frame to work on; never larger than the source (default 960x544)");
+      "largest frame to work on; never larger than the source (default: as many pixels as 960x544)");
   text(
       "--fps", [&o](const std::string& s) { o.fps = parse_number("--fps", s, 0.01, 100000); }, "N",
       "the true frame rate, where the file's own is wrong");

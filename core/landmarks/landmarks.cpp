@@ -21,7 +21,7 @@ constexpr float kBent = 0.6f;         // a straight fish is 0.8 to 0.95 of half 
 constexpr float kBeforeTail = 0.7f;   // of a bent fish's axis: from here its tail fin is looked at
 constexpr int kRounds = 2;            // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
-constexpr float kTrim = 0.05f;
+constexpr float kHeadTrim = 0.09f, kTailTrim = 0.05f;
 
 struct LandmarksImpl final : Landmarks {
   LandmarkSettings settings;
@@ -123,13 +123,14 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
 
   // Ours: centre the axis in the original outline.
   const Stretch right{head, index_gap(head, tail, static_cast<int>(n))};
-  axis = joined_to_ends(axis, at(c, head), at(c, tail), kTrim);
+  const AxisEnds drawn{at(c, head), at(c, tail), kHeadTrim, kTailTrim, tail != (kept ? ends.tail : ends.head)};
+  axis = joined_to_ends(axis, drawn);
   StationValues body{};
   for (int round = 0; round < kRounds; ++round) {
     project_outline(c, right, axis, along);
     const WidthProfile widths = width_profile(along.first(n), right);
     body = body_half_width(widths);
-    axis = extended_to_outline(centred(axis, widths, body), c, at(c, head), at(c, tail), kTrim);
+    axis = extended_to_outline(centred(axis, widths, body), c, drawn);
   }
   measure_fins(c, right, body, pose);
 

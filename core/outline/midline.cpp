@@ -10,6 +10,7 @@ namespace {
 constexpr int kLast = kStations - 1;
 // A ray that leaves the outline farther than this from its end point (share of the length) left through a flank.
 constexpr float kNearEnd = 0.06f;
+constexpr float kNearNotch = 0.02f;         // of a forked tail: farther away lies a lobe
 constexpr int kFinsFrom = 7, kFinsTo = 42;  // stations where pectoral fins can stand
 // Of the smoother: the axis may bend within about four stations; the body's width changes over ten or more.
 constexpr float kAxisStiffness = 1.0f, kBodyStiffness = 60.0f;
@@ -116,10 +117,11 @@ struct Reliable {
   int first, last;
 };
 
-Reliable reliable_part(const Axis& axis, Vec2 head, Vec2 tail, float trim) {
+Reliable reliable_part(const Axis& axis, const AxisEnds& ends) {
   const Segments segments(axis);
-  return {clamp_int(static_cast<int>((place_of(segments, head) + trim) * kLast) + 1, 1, kLast / 4),
-          clamp_int(static_cast<int>((place_of(segments, tail) - trim) * kLast), 3 * kLast / 4, kLast - 1)};
+  return {
+      clamp_int(static_cast<int>((place_of(segments, ends.head) + ends.head_trim) * kLast) + 1, 1, kLast / 4),
+      clamp_int(static_cast<int>((place_of(segments, ends.tail) - ends.tail_trim) * kLast), 3 * kLast / 4, kLast - 1)};
 }
 
 Axis with_ends(const Axis& axis, Reliable part, Vec2 head, Vec2 tail) {
@@ -255,22 +257,23 @@ Axis centred(const Axis& axis, const WidthProfile& widths, const StationValues& 
   return resampled(moved);
 }
 
-Axis joined_to_ends(const Axis& axis, Vec2 head, Vec2 tail, float trim) {
-  const Reliable part = reliable_part(axis, head, tail, trim);
-  return with_ends(axis, part, head, tail);
+Axis joined_to_ends(const Axis& axis, const AxisEnds& ends) {
+  return with_ends(axis, reliable_part(axis, ends), ends.head, ends.tail);
 }
 
-Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim) {
-  const Reliable part = reliable_part(axis, head, tail, trim);
-  const float reach = 0.25f * axis.length, near = kNearEnd * axis.length;
-  const auto end_point = [&](int at, int inner, Vec2 end) {
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, const AxisEnds& ends) {
+  const Reliable part = reliable_part(axis, ends);
+  const float reach = 0.25f * axis.length;
+  const auto end_point = [&](int at, int inner, Vec2 end, float near) {
     const Vec2 p = axis.points[static_cast<std::size_t>(at)];
     const Vec2 dir = normalised(p - axis.points[static_cast<std::size_t>(inner)]);
     const float along = ray_to_contour(contour, p, dir, reach);
     const Vec2 hit = p + dir * along;
     return along >= 0 && length_sq(hit - end) < near * near ? hit : end;
   };
-  return with_ends(axis, part, end_point(part.first, part.first + 4, head), end_point(part.last, part.last - 4, tail));
+  return with_ends(
+      axis, part, end_point(part.first, part.first + 4, ends.head, kNearEnd * axis.length),
+      end_point(part.last, part.last - 4, ends.tail, (ends.notched ? kNearNotch : kNearEnd) * axis.length));
 }
 
 }  // namespace nt

@@ -64,12 +64,18 @@ StationValues body_half_width(const WidthProfile& widths);
 // a fin and are bridged.
 Axis centred(const Axis& axis, const WidthProfile& widths, const StationValues& body);
 
-// Draws the axis straight from its reliable part to the outline's end points; `trim` of the length before them is not
-// reliable.
-Axis joined_to_ends(const Axis& axis, Vec2 head, Vec2 tail, float trim);
+// Where the axis ends, and the part before each end (share of the length) that is drawn straight and not measured.
+struct AxisEnds {
+  Vec2 head, tail;
+  float head_trim = 0.05f, tail_trim = 0.05f;
+  bool notched = false;  // `tail` lies between the tips of a forked fin: the axis ends there, and in neither lobe
+};
+
+// Draws the axis straight from its reliable part to the outline's end points.
+Axis joined_to_ends(const Axis& axis, const AxisEnds& ends);
 
 // As joined_to_ends, but each end runs straight on to where it leaves the contour, if that is near the outline's end point:
 // the farthest point of a blunt snout or a slanting tail lies beside the axis.
-Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, Vec2 head, Vec2 tail, float trim);
+Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, const AxisEnds& ends);
 
 }  // namespace nt

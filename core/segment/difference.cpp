@@ -70,14 +70,15 @@ void mask_of_difference(LumaView luma, LumaView background, int threshold, int s
   }
 }
 
-void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright,
+void masks_of_difference(LumaView luma, LumaView background, int threshold, int offset, const BitMask& bright,
                          const BitMask& dark) {
+  const int above = clamp_int(threshold + offset, 0, 255), below = clamp_int(threshold - offset, 0, 255);
   for (int y = 0; y < luma.height; ++y) {
     uint64_t *bright_words = bright.row(y), *dark_words = dark.row(y);
     for_both(luma.row(y), background.row(y), luma.width,
              [&](int i, const uint8_t* v, const uint8_t* b, uint64_t valid) {
-               bright_words[i] = excess_word(v, b, threshold) & valid;
-               dark_words[i] = excess_word(b, v, threshold) & valid;
+               bright_words[i] = excess_word(v, b, above) & valid;
+               dark_words[i] = excess_word(b, v, below) & valid;
              });
   }
 }

@@ -16,8 +16,10 @@ namespace nt {
 // Foreground where sign * (luma - background) > threshold; sign +1 bright, -1 dark, 0 either.
 void mask_of_difference(LumaView luma, LumaView background, int threshold, int sign, const BitMask& foreground);
 
-// Both signs in one pass: bright where luma - background > threshold, dark where background - luma > threshold.
-void masks_of_difference(LumaView luma, LumaView background, int threshold, const BitMask& bright, const BitMask& dark);
+// Both signs in one pass: bright where luma - background > threshold + offset, dark where background - luma > threshold -
+// offset. `offset` is what the light has gained since the background was learned.
+void masks_of_difference(LumaView luma, LumaView background, int threshold, int offset, const BitMask& bright,
+                         const BitMask& dark);
 
 // Which differences move the background by one level in a frame: those in (above, up_to] upwards, those up to `down_to`
 // downwards. All 0: none.

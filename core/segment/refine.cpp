@@ -25,8 +25,9 @@ constexpr double kLargestShadow = 0.55;
 
 // The weak mask is not opened, so it falls into more parts than the frame has blobs.
 constexpr int kPartsPerBlob = 4;
-constexpr float kGlow = 0.12f;  // of the fish's own contrast; its fins have a quarter of it and more
-constexpr float kNoisy = 4.0f;  // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
+constexpr int kMostFlicker = 24;  // grey levels; more is no flicker
+constexpr float kGlow = 0.12f;    // of the fish's own contrast; its fins have a quarter of it and more
+constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
@@ -81,6 +82,21 @@ std::array<int, 256> differences(LumaView luma, LumaView background, const BitMa
     }
   }
   return histogram;
+}
+
+// How much brighter than the background the picture is around the fish, which covers far less than half of the box: a lamp
+// that flickers. Less than two levels is the plane's own rounding.
+int light_offset(LumaView luma, LumaView background) {
+  std::array<int, 511> histogram{};
+  int total = 0;
+  for (int y = 0; y < luma.height; y += 4) {
+    const uint8_t *v = luma.row(y), *b = background.row(y);
+    for (int x = 0; x < luma.width; x += 2, ++total) ++histogram[static_cast<std::size_t>(v[x] - b[x] + 255)];
+  }
+  int median = 0;
+  for (int below = histogram[0]; 2 * below < total; below += histogram[static_cast<std::size_t>(median)]) ++median;
+  median -= 255;
+  return median > -2 && median < 2 ? 0 : clamp_int(median, -kMostFlicker, kMostFlicker);
 }
 
 int median_of(const std::array<int, 256>& histogram) {
@@ -232,7 +248,7 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   // Above the noise, and above the glow and the lens blur around a fish of high contrast.
   const int contrast = median_of(differences(here, ground, seeds, 4));
   const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
-  masks_of_difference(here, ground, weak, bright, dark);
+  masks_of_difference(here, ground, weak, light_offset(here, ground), bright, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
   keep_connected(candidates, seeds, fish);
   combine(around, [&](int i) { return fish.words[i]; });

@@ -18,12 +18,12 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 
 class FileCamera : public Camera {
  public:
-  FileCamera(const std::string& path, int work_width, int work_height, double fps_override)
+  FileCamera(const std::string& path, int work_width, int work_height, double fps_override, int64_t most_pixels)
       : name_(std::filesystem::path(path).filename().string()), source_(open_frame_source(path)) {
     if (!source_->read(decoded_))
       throw UserError(path + ": there is no frame in it that can be read; record it again or convert it");
     check_size(path);
-    const WorkSize size = working_size(decoded_.cols, decoded_.rows, work_width, work_height);
+    const WorkSize size = working_size(decoded_.cols, decoded_.rows, work_width, work_height, most_pixels);
     if (size.width < kSmallestSide || size.height < kSmallestSide) {
       throw UserError(path + ": at the working size it is " + size_text(size.width, size.height) +
                       " pixels, too small to hold a fish; raise --work-size");
@@ -129,19 +129,21 @@ class FileCamera : public Camera {
 
 }  // namespace
 
-WorkSize working_size(int source_width, int source_height, int work_width, int work_height) {
-  const double scale =
+WorkSize working_size(int source_width, int source_height, int work_width, int work_height, int64_t most_pixels) {
+  double scale =
       std::min({1.0, static_cast<double>(work_width) / source_width, static_cast<double>(work_height) / source_height});
+  const double pixels = static_cast<double>(source_width) * source_height;
+  if (most_pixels > 0) scale = std::min(scale, std::sqrt(static_cast<double>(most_pixels) / pixels));
   const auto side = [scale](int source, int limit) {
     return std::clamp(static_cast<int>(std::lround(source * scale)), 1, std::max(1, limit));
   };
   return {side(source_width, work_width), side(source_height, work_height)};
 }
 
-std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height,
-                                         double fps_override) {
+std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height, double fps_override,
+                                         int64_t most_pixels) {
   try {
-    return std::make_unique<FileCamera>(path, work_width, work_height, fps_override);
+    return std::make_unique<FileCamera>(path, work_width, work_height, fps_override, most_pixels);
   } catch (const cv::Exception&) {
     throw UserError(path + ": it cannot be decoded (damaged, or too large for the memory)");
   }

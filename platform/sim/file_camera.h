@@ -9,6 +9,8 @@
 // Timestamps are sequence / fps. A frame that cannot be decoded leaves a gap in the sequence and does not end the clip.
 // Cost: decoding, one resize, two colour conversions; no allocation of our own after the first frame.
 #pragma once
+#include <cstdint>
+
 #include "platform/camera.h"
 
 namespace nt {
@@ -17,12 +19,12 @@ struct WorkSize {
   int width = 0, height = 0;
 };
 
-// The working size of a source, pixels.
-WorkSize working_size(int source_width, int source_height, int work_width, int work_height);
+// The working size of a source, pixels; most_pixels > 0 limits width x height too.
+WorkSize working_size(int source_width, int source_height, int work_width, int work_height, int64_t most_pixels = 0);
 
 // fps_override > 0 replaces the file's frame rate (container rates of high-speed clips are often false).
 // Throws UserError, one line: missing, not a video, without frames, too small (under 16x16), too large (over 8192).
 std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height,
-                                         double fps_override = 0);
+                                         double fps_override = 0, int64_t most_pixels = 0);
 
 }  // namespace nt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_real FOLDER [--clips A,B] [--odd] [--pictures FOLDER]
+// bench_real FOLDER [--clips A,B] [--odd] [--work-size WxH] [--pictures FOLDER]
 // Capture over filmed fish, scored against the reference midlines, one row a clip. FOLDER holds the clips. --odd lists the
 // frames that miss a limit; --pictures writes one picture a frame: reference yellow and white, capture cyan.
 #include <cstdio>
@@ -23,6 +23,7 @@ using nt::test::RealFrame;
 struct Options {
   std::string folder, clips, pictures;
   bool odd = false;
+  std::optional<nt::Size> work;
 };
 
 void print_row(const RealAccuracy& a) {
@@ -98,11 +99,12 @@ Options parse(int argc, char** argv) {
     if (key == "--odd") o.odd = true;
     else if (key == "--clips" && i + 1 < argc) o.clips = argv[++i];
     else if (key == "--pictures" && i + 1 < argc) o.pictures = argv[++i];
+    else if (key == "--work-size" && i + 1 < argc) o.work = nt::parse_size(key.c_str(), argv[++i]);
     else if (!key.starts_with("-") && o.folder.empty()) o.folder = key;
     else o.folder.clear(), i = argc;
   }
   if (!o.folder.empty()) return o;
-  std::fprintf(stderr, "usage: bench_real FOLDER [--clips A,B] [--odd] [--pictures FOLDER]\n");
+  std::fprintf(stderr, "usage: bench_real FOLDER [--clips A,B] [--odd] [--work-size WxH] [--pictures FOLDER]\n");
   std::exit(2);
 }
 
@@ -120,7 +122,7 @@ int main(int argc, char** argv) try {
     if (!o.clips.empty() && (o.clips + ",").find(clip.file + ",") == std::string::npos &&
         clip.file.find(o.clips) == std::string::npos)
       continue;
-    const RealAccuracy a = nt::test::measure_real(clip, o.folder);
+    const RealAccuracy a = nt::test::measure_real(clip, o.folder, o.work);
     print_row(a);
     if (o.odd) print_odd(a);
     if (!o.pictures.empty()) write_pictures(a, o);

@@ -105,11 +105,12 @@ std::vector<cv::Mat> read_grey(const std::string& path) {
   return frames;
 }
 
-RealAccuracy measure_real(const RealClip& clip, const std::string& folder) {
+RealAccuracy measure_real(const RealClip& clip, const std::string& folder, std::optional<Size> work) {
   const std::string path = folder + "/" + clip.file;
   CaptureOptions options;
   options.camera.kind = CameraSpec::Kind::file;
   options.camera.path = path;
+  options.work = work;
   Session session(options);
   RealAccuracy out;
   out.file = clip.file, out.background = session.capture().background_name();

@@ -4,10 +4,11 @@
 //
 // Clip -> counts and errors. Lengths are per cent of the fish's length, the median of the reference's over the clip.
 #pragma once
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/numbers.h"
 #include "core/landmarks/fish_pose.h"
 #include "tests/oracle/real/real_clips.h"
 
@@ -35,7 +36,7 @@ struct RealAccuracy {
 
 std::vector<cv::Mat> read_grey(const std::string& path);  // all frames; empty when it cannot be read
 
-// `folder` holds the clips.
-RealAccuracy measure_real(const RealClip& clip, const std::string& folder);
+// `folder` holds the clips; without `work` at the size that the app takes.
+RealAccuracy measure_real(const RealClip& clip, const std::string& folder, std::optional<Size> work = {});
 
 }  // namespace nt::test

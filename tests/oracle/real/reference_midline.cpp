@@ -55,7 +55,18 @@ cv::Mat fish_mask(const cv::Mat& frame, const cv::Mat& ground, const ReferenceSe
   cv::Mat difference = s.bright ? cv::Mat(value - base) : cv::Mat(base - value);
   difference -= median_of(difference);  // the lamp's flicker
   if (s.blur > 0) cv::GaussianBlur(difference, difference, {}, s.blur);
-  if (s.along > 0) difference = smoothed_along_lines(difference, s.along);
+  if (s.along > 0) {
+    // Only around the strongest spot, with room for the whole fish: the rest of the dish is no fish.
+    cv::Mat calm;
+    cv::GaussianBlur(difference, calm, {}, 2);
+    cv::Point spot;
+    cv::minMaxLoc(calm, nullptr, nullptr, nullptr, &spot);
+    const cv::Rect box =
+        cv::Rect(spot.x - s.reach, spot.y - s.reach, 2 * s.reach, 2 * s.reach) & cv::Rect({}, frame.size());
+    cv::Mat there = cv::Mat::zeros(difference.size(), CV_32F);
+    smoothed_along_lines(difference(box), s.along).copyTo(there(box));
+    difference = there;
+  }
   // The fish is the part over `weak` with most pixels over `strong` that keeps clear of the frame's edge (a dark corner, a dish's rim do not).
   const cv::Mat strong = difference > s.strong;
   cv::Mat labels, stats, centroids;

@@ -21,6 +21,7 @@ struct ReferenceSettings {
   int strong = 80, weak = 40;  // grey levels
   int median_filter = 0;       // side of the window against specks; 0: none
   double blur = 0;             // sigma of a Gaussian against noise, pixels; 0: none
+  int reach = 180;             // pixels from the strongest spot within which `along` looks for the fish
   double along = 0;            // sigma along lines, against noise around a tail of two pixels; 0: none
 };
 

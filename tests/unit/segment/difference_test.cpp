@@ -59,7 +59,7 @@ TEST(Difference, BothSignsInOnePassMatchThePlainLoop) {
     for (const int threshold : {0, 9, 255}) {
       Bits bright(width, 3), dark(width, 3);
       bright.soil(), dark.soil();
-      masks_of_difference(luma.luma(), background.luma(), threshold, bright.mask(), dark.mask());
+      masks_of_difference(luma.luma(), background.luma(), threshold, 0, bright.mask(), dark.mask());
       EXPECT_TRUE(test::clear_past_width(bright.mask()) && test::clear_past_width(dark.mask()));
       for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < width; ++x) {

@@ -5,6 +5,7 @@
 #include "core/base/image_view.h"
 #include "core/landmarks/body.h"
 #include "core/landmarks/fins.h"
+#include "core/landmarks/tail.h"
 #include "core/outline/fourier.h"
 #include "core/outline/midline.h"
 #include "core/outline/moments.h"
@@ -133,6 +134,7 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
     axis = extended_to_outline(centred(axis, widths, body), c, drawn);
   }
   measure_fins(c, right, body, pose);
+  if (!drawn.notched) axis = followed_tail(axis, hints.luma, hints.ground);
 
   sample_axis(moments.centroid, pose);
   pose.head = axis.points[0], pose.tail = axis.points[kStations - 1];

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kLast = kStations - 1;
 // A ray that leaves the outline farther than this from its end point (share of the length) left through a flank.
-constexpr float kNearEnd = 0.06f;
+constexpr float kNearEnd = 0.06f, kNearHead = 0.12f;  // a blunt head's end point may be its corner
 constexpr float kNearNotch = 0.02f;         // of a forked tail: farther away lies a lobe
 constexpr int kFinsFrom = 7, kFinsTo = 42;  // stations where pectoral fins can stand
 // Of the smoother: the axis may bend within about four stations; the body's width changes over ten or more.
@@ -272,7 +272,7 @@ Axis extended_to_outline(const Axis& axis, std::span<const Vec2> contour, const 
     return along >= 0 && length_sq(hit - end) < near * near ? hit : end;
   };
   return with_ends(
-      axis, part, end_point(part.first, part.first + 4, ends.head, kNearEnd * axis.length),
+      axis, part, end_point(part.first, part.first + 4, ends.head, kNearHead * axis.length),
       end_point(part.last, part.last - 4, ends.tail, (ends.notched ? kNearNotch : kNearEnd) * axis.length));
 }
 

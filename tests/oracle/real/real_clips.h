@@ -17,9 +17,9 @@ struct RealClip {
 
 inline std::vector<RealClip> real_clips() {
   return {
-      {"sunfish_pectoral_flume.avi", {.strong = 180, .weak = 120}, {30, 128}, 0},
-      {"trout_flume.avi", {.strong = 180, .weak = 60}, {185, 282}, 0},
-      {"sunfish_bcf_hires.avi", {.strong = 80, .weak = 40}, {62, 300}, 0},
+      {"sunfish_pectoral_flume.avi", {.strong = 180, .weak = 120, .fork = 0.05}, {30, 128}, 0},
+      {"trout_flume.avi", {.strong = 180, .weak = 60, .fork = 0.08}, {185, 282}, 0},
+      {"sunfish_bcf_hires.avi", {.strong = 80, .weak = 40, .fork = 0.06}, {62, 300}, 0},
       {"fish_piv_darkfield_2k.mp4",
        {.bright = true, .strong = 100, .weak = 40, .median_filter = 5, .blur = 2},
        {1110, 330},

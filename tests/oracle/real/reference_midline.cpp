@@ -184,15 +184,22 @@ bool inside(const cv::Mat& mask, cv::Point2d p) {
   return cv::Rect({}, mask.size()).contains(q) && mask.at<uint8_t>(q) != 0;
 }
 
-// Cuts the end of the path (its back) by the half-width near it and runs straight on to the rim of the mask.
-void straighten_end(std::vector<cv::Point2d>& line, const cv::Mat& mask, const cv::Mat& rim) {
+// The half-width near the end (the back) of the path.
+double end_radius(const std::vector<cv::Point2d>& line, const cv::Mat& rim) {
   const double length = length_of(line);
   double radius = 0, walked = 0;
   for (std::size_t i = line.size() - 1; i > 0 && walked < 0.1 * length; --i) {
     radius = std::max(radius, static_cast<double>(rim.at<float>(cvRound(line[i].y), cvRound(line[i].x))));
     walked += cv::norm(line[i] - line[i - 1]);
   }
-  const double cut = std::min(1.8 * radius, 0.16 * length);
+  return radius;
+}
+
+// Cuts the end of the path (its back) by the half-width near it, or by `fork` of the length before a forked tail parts, and
+// runs straight on to the rim of the mask.
+void straighten_end(std::vector<cv::Point2d>& line, const cv::Mat& mask, double radius, double fork) {
+  const double length = length_of(line);
+  const double cut = std::max(std::min(1.8 * radius, 0.16 * length), fork * length);
   while (line.size() > 8 && cut > 0) {
     const cv::Point2d end = line.back();
     double back = 0;
@@ -251,9 +258,12 @@ ReferencePose reference_midline(const cv::Mat& frame, const cv::Mat& ground, con
   if (line.size() < 16) return pose;
 
   line = smooth(evenly(line, kPoints), kSmooth * kPoints);
-  straighten_end(line, mask, rim);
+  const double back = end_radius(line, rim);
   std::reverse(line.begin(), line.end());
-  straighten_end(line, mask, rim);
+  const double front = end_radius(line, rim);  // the thinner end is the tail
+  straighten_end(line, mask, front, front < back ? settings.fork : 0);
+  std::reverse(line.begin(), line.end());
+  straighten_end(line, mask, back, front < back ? 0 : settings.fork);
   line = evenly(line, kPoints);
   for (cv::Point2d& p : line) p += cv::Point2d(box.tl());
   pose.midline = line;

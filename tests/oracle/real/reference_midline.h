@@ -23,6 +23,7 @@ struct ReferenceSettings {
   double blur = 0;             // sigma of a Gaussian against noise, pixels; 0: none
   int reach = 180;             // pixels from the strongest spot within which `along` looks for the fish
   double along = 0;            // sigma along lines, against noise around a tail of two pixels; 0: none
+  double fork = 0;  // the caudal fin's share of the length, where it is forked: the midline runs between its lobes
 };
 
 struct ReferencePose {

@@ -99,13 +99,13 @@ void animate(const Options& options) {
     Progress progress(session.info().frame_count);
     while (session.step()) {
       stage.play(session, n, fps, film);
-      if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
+      if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(), session.capture().order());
       progress.show(session.statistics().frames);
     }
   }
   expect_frames(session);
   film.finish();
-  if (csv) csv->close();
+  if (csv) csv->close(), csv->look_back();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
   std::fprintf(stderr, "%s\n%s: %lld drawn frames at %g a second (%d in-betweens)\n",
                summary_line(session.statistics()).c_str(), options.out.c_str(), static_cast<long long>(film.frames()),

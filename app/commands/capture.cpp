@@ -24,6 +24,7 @@ namespace {
 struct Options {
   CaptureOptions capture;
   std::string csv, truth, overlay, json, contact_sheet, take;
+  bool repair = true;
 };
 
 SimCamera& simulated(Session& session) {
@@ -48,6 +49,12 @@ void finish(TakeRecorder& take) {
                  static_cast<long long>(take.not_recorded()));
 }
 
+void finish(PoseCsv& csv, bool repair) {
+  csv.close();
+  const int64_t turned = repair ? csv.look_back() : 0;
+  if (turned > 0) std::fprintf(stderr, "head and tail put right in %lld rows\n", static_cast<long long>(turned));
+}
+
 void capture(const Options& options) {
   check_outputs(inputs_of(options.capture),
                 {options.csv, options.truth, options.overlay, options.json, options.contact_sheet, options.take});
@@ -67,7 +74,9 @@ void capture(const Options& options) {
   {
     Progress progress(session.info().frame_count);
     while (session.step()) {
-      if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
+      if (csv)
+        csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(),
+                 session.capture().order());
       if (take) take->add(take_frame(session));
       if (truth) add_truth(*truth, session);
       if (film.wanted()) {
@@ -80,7 +89,7 @@ void capture(const Options& options) {
     }
   }
   expect_frames(session);
-  if (csv) csv->close();
+  if (csv) finish(*csv, options.repair);
   if (truth) truth->close();
   if (take) finish(*take);
   film.finish();
@@ -95,6 +104,12 @@ void add_capture(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
   command->add_option("--csv", options->csv, "one row of pose a frame ('-' = standard output)")->type_name("FILE");
+  command
+      ->add_option_function<std::string>(
+          "--repair", [options](const std::string& s) { options->repair = s == "on"; },
+          "at the end put head and tail right in the CSV, seen over the whole recording (default on)")
+      ->type_name("on|off")
+      ->check(CLI::IsMember({"on", "off"}));
   command->add_option("--take", options->take, "a take: motion and poses of every frame, to play and edit later")
       ->type_name("FILE.take");
   command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")

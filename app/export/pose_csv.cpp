@@ -4,6 +4,7 @@
 #include <charconv>
 #include <span>
 
+#include "app/export/turn_rows.h"
 #include "core/base/det_math.h"
 
 namespace nt {
@@ -48,12 +49,19 @@ std::string pose_csv_header(int u_num, int l_num) {
   return header + "\n";
 }
 
-PoseCsv::PoseCsv(const std::string& path, float scale, int u_num, int l_num) : file_(path), scale_(scale) {
+PoseCsv::PoseCsv(const std::string& path, float scale, int u_num, int l_num)
+    : path_(path), file_(path), u_num_(u_num), l_num_(l_num), scale_(scale) {
   file_.write(pose_csv_header(u_num, l_num));
 }
 
-void PoseCsv::add(int64_t frame, int64_t time_ns, const FishPose& pose) {
+int64_t PoseCsv::look_back() {
+  order_.trace_back(steps_);
+  return turn_rows(path_, steps_, u_num_, l_num_);
+}
+
+void PoseCsv::add(int64_t frame, int64_t time_ns, const FishPose& pose, const OrderStep& order) {
   const bool ok = pose.ok();
+  if (ok) steps_.push_back(order_.add(order));
   const PoseConfidence seen = ok ? pose.confidence : PoseConfidence{};
   row_ = std::to_string(frame);
   add_fixed(row_, static_cast<double>(time_ns) * 1e-9, 6);

@@ -6,9 +6,11 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "app/text_file.h"
 #include "core/landmarks/fish_pose.h"
+#include "core/motion/order.h"
 
 namespace nt {
 
@@ -22,11 +24,18 @@ class PoseCsv {
  public:
   // `scale` = source width / working width.
   PoseCsv(const std::string& path, float scale, int u_num = 3, int l_num = 15);
-  void add(int64_t frame, int64_t time_ns, const FishPose& pose);
+  // `order` (core's, of this pose) is kept for look_back(): a byte a row.
+  void add(int64_t frame, int64_t time_ns, const FishPose& pose, const OrderStep& order = {});
   void close() { file_.close(); }
+  // After close(): goes over the whole recording once more and turns the rows whose head was the tail. Returns how many.
+  int64_t look_back();
 
  private:
+  std::string path_;
   TextFile file_;
+  OrderPass order_;
+  std::vector<uint8_t> steps_;  // one a pose
+  int u_num_, l_num_;
   float scale_;
   float last_dir_rad_ = 0;
   std::string row_;

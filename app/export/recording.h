@@ -18,7 +18,7 @@ class Recording {
 
   // Once a video frame.
   void add(Session& session, const Scene& scene) {
-    csv_.add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose());
+    csv_.add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(), session.capture().order());
     // Frames that were dropped are filled, so the video keeps the fish's own speed.
     const uint64_t sequence = session.frame().sequence;
     film_.add(scene, last_ < 0 ? 1 : static_cast<int>(static_cast<int64_t>(sequence) - last_));
@@ -26,6 +26,7 @@ class Recording {
   }
   void finish() {
     csv_.close();
+    csv_.look_back();
     film_.finish();
   }
 

@@ -168,7 +168,8 @@ double quantile(std::vector<float> values, double q) {
 
 void Accuracy::add(const Accuracy& other) {
   scored += other.scored, visible += other.visible, posed += other.posed;
-  wrong_end += other.wrong_end, wrong_after += other.wrong_after, false_poses += other.false_poses, wrong_fish += other.wrong_fish;
+  wrong_end += other.wrong_end, wrong_after += other.wrong_after, false_poses += other.false_poses,
+      wrong_fish += other.wrong_fish;
   longest_wait = std::max(longest_wait, other.longest_wait);
   fins_open += other.fins_open, fins_found += other.fins_found;
   fins_claimed += other.fins_claimed, fins_true += other.fins_true;

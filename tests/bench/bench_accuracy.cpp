@@ -85,8 +85,8 @@ void print_json(const Accuracy& a, bool last) {
       "   \"head_pct\": %.3f, \"tail_pct\": %.3f, \"centre_pct\": %.3f, \"midline_rms_pct\": %.3f, \"fin_tip_pct\": "
       "%.3f,\n"
       "   \"dir_median_deg\": %.3f, \"dir_p99_deg\": %.3f, \"fin_recall\": %.4f, \"fin_precision\": %.4f}%s\n",
-      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.wrong_after, a.false_poses, a.wrong_fish, a.longest_wait,
-      quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5),
+      a.scene.c_str(), a.scored, a.visible, a.posed, a.wrong_end, a.wrong_after, a.false_poses, a.wrong_fish,
+      a.longest_wait, quantile(a.head, 0.5), quantile(a.tail, 0.5), quantile(a.centre, 0.5), quantile(a.midline, 0.5),
       quantile(a.fin_tip, 0.5), quantile(a.direction, 0.5), quantile(a.direction, 0.99), a.fin_recall(),
       a.fin_precision(), last ? "" : ",");
 }
@@ -128,8 +128,8 @@ int main(int argc, char** argv) try {
         "%d seeds x %d frames, %dx%d; medians, %% of the body length; direction in degrees; fins in %%; wait: longest "
         "without a pose, s\n"
         "%-14s %7s %7s %5s %5s %5s %5s %5s  %6s %6s %6s %6s %6s  %6s %6s %6s  %5s %5s\n",
-        o.seeds, o.run.frames, o.run.tank.width, o.run.tank.height, "scene", "visible", "pose%", "wrong", "after", "false",
-        "other", "wait", "head", "tail", "centre", "midl.", "fin", "dir50", "dir90", "dir99", "fRec", "fPrec");
+        o.seeds, o.run.frames, o.run.tank.width, o.run.tank.height, "scene", "visible", "pose%", "wrong", "after",
+        "false", "other", "wait", "head", "tail", "centre", "midl.", "fin", "dir50", "dir90", "dir99", "fRec", "fPrec");
   Accuracy all;
   all.scene = "all";
   for (std::size_t i = 0; i < o.scenes.size(); ++i) {

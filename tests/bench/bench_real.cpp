@@ -37,6 +37,16 @@ void print_row(const RealAccuracy& a) {
   std::fflush(stdout);
 }
 
+void print_fins(const RealAccuracy& a, const std::string& labels) {
+  for (const bool left : {true, false}) {
+    const nt::test::FinAgreement f = nt::test::compare_fins(a, labels, left);
+    std::printf(
+        "  %s fin: seen by a person %d, of these by capture %d; not seen %d, of these not by capture %d; "
+        "%d doubtful; agreement %.1f %%\n",
+        left ? "left" : "right", f.seen, f.seen_by_us, f.unseen, f.unseen_by_us, f.doubtful, 100 * f.share());
+  }
+}
+
 void print_odd(const RealAccuracy& a) {
   for (const RealFrame& f : a.all) {
     if (!f.reference.found) continue;
@@ -124,6 +134,7 @@ int main(int argc, char** argv) try {
       continue;
     const RealAccuracy a = nt::test::measure_real(clip, o.folder, o.work);
     print_row(a);
+    if (!clip.fins.empty()) print_fins(a, clip.fins);
     if (o.odd) print_odd(a);
     if (!o.pictures.empty()) write_pictures(a, o);
   }

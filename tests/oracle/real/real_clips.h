@@ -13,11 +13,12 @@ struct RealClip {
   ReferenceSettings reference;
   cv::Point2d head_in_first;  // where the head is in the first frame with the fish: pixels, by eye
   int first_frame = 0;        // with the fish
+  std::string fins;           // labels of its pectoral fins, a file beside this one; "": none
 };
 
 inline std::vector<RealClip> real_clips() {
   return {
-      {"sunfish_pectoral_flume.avi", {.strong = 180, .weak = 120, .fork = 0.05}, {30, 128}, 0},
+      {"sunfish_pectoral_flume.avi", {.strong = 180, .weak = 120, .fork = 0.05}, {30, 128}, 0, "sunfish_fins.txt"},
       {"trout_flume.avi", {.strong = 180, .weak = 60, .fork = 0.08}, {185, 282}, 0},
       {"sunfish_bcf_hires.avi", {.strong = 80, .weak = 40, .fork = 0.06}, {62, 300}, 0},
       {"fish_piv_darkfield_2k.mp4",

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -92,6 +96,27 @@ double RealAccuracy::share_within(double RealFrame::*which, double limit) const 
   const std::vector<float> values = errors(which);
   const auto good = std::count_if(values.begin(), values.end(), [&](float v) { return v <= limit; });
   return values.empty() ? 0 : static_cast<double>(good) / static_cast<double>(values.size());
+}
+
+FinAgreement compare_fins(const RealAccuracy& clip, const std::string& labels, bool left) {
+  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / labels);
+  if (!file) throw std::runtime_error("no labels: " + labels);
+  FinAgreement out;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::size_t first = 0, last = 0;
+    char l = 0, r = 0;
+    if (!(words >> first >> last >> l >> r)) continue;
+    for (std::size_t i = first; i <= last && i < clip.all.size(); ++i) {
+      const FishPose& pose = clip.all[i].pose;
+      const bool ours = pose.ok() && (left ? pose.confidence.l_fin : pose.confidence.r_fin) > 0;
+      const char label = left ? l : r;
+      out.doubtful += label == '?';
+      out.seen += label == '1', out.seen_by_us += label == '1' && ours;
+      out.unseen += label == '0', out.unseen_by_us += label == '0' && !ours;
+    }
+  }
+  return out;
 }
 
 std::vector<cv::Mat> read_grey(const std::string& path) {

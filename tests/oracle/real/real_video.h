@@ -4,6 +4,7 @@
 //
 // Clip -> counts and errors. Lengths are per cent of the fish's length, the median of the reference's over the clip.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,20 @@ struct RealAccuracy {
 };
 
 std::vector<cv::Mat> read_grey(const std::string& path);  // all frames; empty when it cannot be read
+
+// Fins that a person sees or not, against what capture says.
+struct FinAgreement {
+  int seen = 0, seen_by_us = 0;      // a person sees the fin; of these we do
+  int unseen = 0, unseen_by_us = 0;  // a person does not; of these we do not
+  int doubtful = 0;                  // a person cannot tell: not counted
+
+  double share() const {
+    return static_cast<double>(seen_by_us + unseen_by_us) / static_cast<double>(std::max(seen + unseen, 1));
+  }
+};
+
+// Of one fin over a clip. `labels`: a file as sunfish_fins.txt, beside this one. Throws std::runtime_error.
+FinAgreement compare_fins(const RealAccuracy& clip, const std::string& labels, bool left);
 
 // `folder` holds the clips; without `work` at the size that the app takes.
 RealAccuracy measure_real(const RealClip& clip, const std::string& folder, std::optional<Size> work = {});

@@ -19,6 +19,7 @@ struct SideWalk {
 // Depth of `p` below the line from q to r, positive on the side of the fish's axis.
 float depth_below(Vec2 q, Vec2 r, Vec2 p, float inward) { return inward * cross(normalised(r - q), p - q); }
 
+constexpr float kHeadEnd = 0.13f, kBeyondHead = 1.1f;
 constexpr float kHeadRound = 0.08f;  // of the length: before it every head gets narrower
 constexpr float kBreadth = 0.02f;    // of the length, half-way up
 constexpr float kTipRound = 0.06f;   // of the length: as near to the tip the outline turns round it
@@ -29,18 +30,22 @@ int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip
   const auto point = [&](int k) { return contour[static_cast<std::size_t>(walk.at(k))]; };
   const int step = k_end > k_tip ? 1 : -1;
   const Vec2 q = point(k_tip), to_p = normalised(point(k_end) - q);
-  // The angle PQR is largest where its cosine is smallest. Points on the round of the tip give no direction.
+  const float sign = step > 0 ? inward : -inward;
+  // The angle PQR, towards the body, is largest where its cosine is smallest. A convex edge bulges to the other side of QP
+  // first, and along a straight one all angles are the same: then its far end is the corner. Points on the round of the tip
+  // give no direction.
+  constexpr float kSameAngle = 0.003f;
   int k_r = k_end;
   float smallest = 2;
   for (int k = k_tip + step; (k_end - k) * step > 0; k += step) {
     const Vec2 to_r = point(k) - q;
-    if (length_sq(to_r) < tip_round * tip_round) continue;
+    if (length_sq(to_r) < tip_round * tip_round || sign * cross(to_p, to_r) < 0) continue;
     const float c = dot(to_p, normalised(to_r));
-    if (c < smallest) smallest = c, k_r = k;
+    if (c < smallest + kSameAngle) k_r = k;
+    smallest = det::min(smallest, c);
   }
   // [F]: the point of QR farthest from the line QR, on its inner side. Where the fin's edge is straight that is noise, and
   // R itself is the corner between fin and body.
-  const float sign = step > 0 ? inward : -inward;
   int best = k_r;
   float deepest = 0.25f * tip_round;
   for (int k = k_tip; (k_r - k) * step >= 0; k += step) {
@@ -93,7 +98,11 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
   float flank_ahead = farthest;
   for (int k = k_tip; k > 0 && place(k).s > kHeadRound; --k) flank_ahead = det::min(flank_ahead, place(k).d);
   const bool apart = flank_ahead < 0.5f * (flank + farthest);
-  fin.seen = stands_out > kStandsOut && breadth > kBreadth && apart && top < k_tip && bottom > k_tip;
+  // Nothing that reaches no farther than the head is a fin: a larva's eyes are its widest part, its swim bladder the next.
+  float head_reach = 0;
+  for (int k = 1; k < k_tip && place(k).s < kHeadEnd; ++k) head_reach = det::max(head_reach, place(k).d);
+  const bool out = stands_out > kStandsOut && farthest > kBeyondHead * head_reach;
+  fin.seen = out && breadth > kBreadth && apart && top < k_tip && bottom > k_tip;
   if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
   return fin;
 }

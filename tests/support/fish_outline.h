@@ -15,7 +15,9 @@ struct FishShape {
   float heading = 0.3f;  // of the head, at the middle of the axis
   Vec2 middle{300, 250};
   bool left_fin = false, right_fin = false;
-  bool forked = false;  // the caudal fin has two tips, the axis ends in the notch between them
+  float fin_bulge = 0.06f;  // of its edges, share of the length; 0: straight
+  bool larva = false;       // eyes are its widest part, then the swim bladder; the tail is thin
+  bool forked = false;      // the caudal fin has two tips, the axis ends in the notch between them
 };
 
 class FishOutline {
@@ -45,6 +47,12 @@ class FishOutline {
     return shape_.middle + p * shape_.length + right_of(Vec2{-a.cos, -a.sin}) * d;
   }
   float half_width(float s) const {
+    if (shape_.larva) {
+      const auto bump = [s](float at, float wide) { return det::exp(-(s - at) * (s - at) / (2 * wide * wide)); };
+      const float ends = det::sqrt(det::max(1 - (1 - s / 0.06f) * (1 - s / 0.06f), s < 0.06f ? 0.0f : 1.0f));
+      const float body = 0.095f * bump(0.08f, 0.045f) + 0.062f * bump(0.27f, 0.035f) + 0.025f * (1 - s) + 0.008f;
+      return shape_.length * body * (s < 0.06f ? ends : 1.0f);
+    }
     if (s < 0.3f) return kWide * shape_.length * det::sqrt(det::max(1 - (0.3f - s) * (0.3f - s) / 0.09f, 0.0f));
     const float u = det::min((s - 0.3f) / 0.55f, 1.0f);
     float w = 0.22f + 0.78f * (0.5f + 0.5f * det::cos(det::kPi * u));
@@ -76,12 +84,12 @@ class FishOutline {
     const float s = static_cast<float>(i) / kSteps;
     corners.push_back(fin && s > kFinTop && s < kFinBottom ? fin_edge(s, side) : flank(s, side));
   }
-  // The edges of a fin bulge a little: on a straight one every point has the largest angle of [F] section 4.4.
+  // On a straight edge every point has the largest angle of [F] section 4.4.
   Vec2 fin_edge(float s, float side) const {
     const float u = 2 * (s - kFinTop) / (kFinBottom - kFinTop), tip = half_width(kFinTip) + kFinSpan * shape_.length;
     const bool leading = u < 1;
     const float v = leading ? u : 2 - u, root = leading ? kFinTop : kFinBottom,
-                bulge = (leading ? 0.06f : -0.06f) * v * (1 - v);
+                bulge = (leading ? shape_.fin_bulge : -shape_.fin_bulge) * v * (1 - v);
     return at(root + (kFinTip - root) * v - bulge,
               side * (half_width(root) + (tip - half_width(root)) * v + bulge * shape_.length));
   }

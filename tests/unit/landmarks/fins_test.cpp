@@ -50,6 +50,24 @@ TEST(Fins, AnOpenFinIsSeenOnItsOwnSide) {
   }
 }
 
+TEST(Fins, TheJunctionsOfStraightAndOfHollowEdgesAreAtTheBody) {
+  for (const float bulge : {0.06f, 0.0f, -0.06f}) {
+    const FishOutline fish(FishShape{.bend = 0, .right_fin = true, .fin_bulge = bulge});
+    const Scene scene(fish.contour(), fish);
+    const Fin fin = scene.find(Side::right);
+    ASSERT_TRUE(fin.seen) << bulge;
+    EXPECT_LT(length(scene.at(fin.top) - fish.junction(1, true)), 8) << bulge;
+    EXPECT_LT(length(scene.at(fin.bottom) - fish.junction(1, false)), 8) << bulge;
+  }
+}
+
+TEST(Fins, ALarvasSwimBladderIsNoFin) {
+  const FishOutline larva(FishShape{.length = 90, .bend = 0.2f, .larva = true});
+  const Scene scene(larva.contour(), larva);
+  EXPECT_FALSE(scene.find(Side::left).seen);
+  EXPECT_FALSE(scene.find(Side::right).seen);
+}
+
 TEST(Fins, AFoldedFinIsNotSeen) {
   const FishOutline fish(FishShape{});
   const Scene scene(fish.contour(), fish);

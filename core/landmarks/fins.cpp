@@ -8,7 +8,8 @@ namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
 constexpr float kSnout = 0.05f, kPeduncle = 0.8f;
-constexpr float kStandsOut = 0.032f;  // of the length, above the body: less is outline noise or a folded fin
+constexpr float kStandsOut = 0.028f;  // of the length, above the body: less is outline noise or a folded fin
+constexpr float kPlainlyOut = 0.064f;
 
 // One side of the outline as a sequence from head to tail.
 struct SideWalk {
@@ -103,7 +104,7 @@ Fin find_fin(std::span<const Vec2> contour, std::span<const AlongAxis> along, St
   for (int k = 1; k < k_tip && place(k).s < kHeadEnd; ++k) head_reach = det::max(head_reach, place(k).d);
   const bool out = stands_out > kStandsOut && farthest > kBeyondHead * head_reach;
   fin.seen = out && breadth > kBreadth && apart && top < k_tip && bottom > k_tip;
-  if (fin.seen) fin.confidence = det::clamp(stands_out / (2 * kStandsOut), 0.0f, 1.0f);
+  if (fin.seen) fin.confidence = det::clamp(stands_out / kPlainlyOut, 0.0f, 1.0f);
   return fin;
 }
 

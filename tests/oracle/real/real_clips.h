@@ -13,7 +13,7 @@ struct RealClip {
   ReferenceSettings reference;
   cv::Point2d head_in_first;  // where the head is in the first frame with the fish: pixels, by eye
   int first_frame = 0;        // with the fish
-  std::string fins;           // labels of its pectoral fins, a file beside this one; "": none
+  std::string fins{};         // labels of its pectoral fins, a file beside this one; "": none
 };
 
 inline std::vector<RealClip> real_clips() {

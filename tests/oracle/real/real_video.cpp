@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -99,7 +98,7 @@ double RealAccuracy::share_within(double RealFrame::*which, double limit) const 
 }
 
 FinAgreement compare_fins(const RealAccuracy& clip, const std::string& labels, bool left) {
-  std::ifstream file(std::filesystem::path(__FILE__).parent_path() / labels);
+  std::ifstream file(std::string(NEONTETRA_LABELS) + "/" + labels);
   if (!file) throw std::runtime_error("no labels: " + labels);
   FinAgreement out;
   for (std::string line; std::getline(file, line);) {

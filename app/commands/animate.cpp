@@ -99,7 +99,9 @@ void animate(const Options& options) {
     Progress progress(session.info().frame_count);
     while (session.step()) {
       stage.play(session, n, fps, film);
-      if (csv) csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(), session.capture().order());
+      if (csv)
+        csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(),
+                 session.capture().order());
       progress.show(session.statistics().frames);
     }
   }

@@ -147,10 +147,11 @@ float continuity(const Axis& axis, std::span<const Vec2> last) {
 }
 
 float agreed(float a, float b) {
-  const float both = det::clamp(a + b, -40.0f, 40.0f), low = det::min(a, b),
-              gap = det::clamp(det::abs(a - b), 0.0f, 40.0f);
+  // Surer than e^20 is not sure of more, and its exponential stays a number.
+  a = det::clamp(a, -20.0f, 20.0f), b = det::clamp(b, -20.0f, 20.0f);
+  const float low = det::min(a, b), gap = det::abs(a - b);
   // log((1 + e^(a+b)) / (e^a + e^b)), with the larger of the two taken out of the denominator.
-  return det::log(1.0f + det::exp(both)) - (low + gap + det::log(1.0f + det::exp(-gap)));
+  return det::log(1.0f + det::exp(a + b)) - (low + gap + det::log(1.0f + det::exp(-gap)));
 }
 
 }  // namespace nt

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kFrom = 0.15f, kTo = 0.60f;  // where pectoral fins can be, as shares of the length behind the head
 constexpr float kSnout = 0.05f, kPeduncle = 0.8f;
-constexpr float kStandsOut = 0.028f;  // of the length, above the body: less is outline noise or a folded fin
+constexpr float kStandsOut = 0.0275f;  // of the length, above the body: less is outline noise or a folded fin
 constexpr float kPlainlyOut = 0.064f;
 
 // One side of the outline as a sequence from head to tail.
@@ -32,18 +32,14 @@ int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip
   const int step = k_end > k_tip ? 1 : -1;
   const Vec2 q = point(k_tip), to_p = normalised(point(k_end) - q);
   const float sign = step > 0 ? inward : -inward;
-  // The angle PQR, towards the body, is largest where its cosine is smallest. A convex edge bulges to the other side of QP
-  // first, and along a straight one all angles are the same: then its far end is the corner. Points on the round of the tip
-  // give no direction.
-  constexpr float kSameAngle = 0.003f;
+  // The angle PQR is largest where its cosine is smallest. Points on the round of the tip give no direction.
   int k_r = k_end;
   float smallest = 2;
   for (int k = k_tip + step; (k_end - k) * step > 0; k += step) {
     const Vec2 to_r = point(k) - q;
-    if (length_sq(to_r) < tip_round * tip_round || sign * cross(to_p, to_r) < 0) continue;
+    if (length_sq(to_r) < tip_round * tip_round) continue;
     const float c = dot(to_p, normalised(to_r));
-    if (c < smallest + kSameAngle) k_r = k;
-    smallest = det::min(smallest, c);
+    if (c < smallest) smallest = c, k_r = k;
   }
   // [F]: the point of QR farthest from the line QR, on its inner side. Where the fin's edge is straight that is noise, and
   // R itself is the corner between fin and body.
@@ -53,7 +49,16 @@ int find_junction(std::span<const Vec2> contour, const SideWalk& walk, int k_tip
     const float depth = depth_below(q, point(k_r), point(k), sign);
     if (depth > deepest) deepest = depth, best = k;
   }
-  return best;
+  // Along a straight edge all angles are the same, along a hollow one the largest is beside the tip, and a bulging one has
+  // its largest on the other side of PQ: then the corner is where the outline lies deepest below PQ.
+  int corner = k_tip;
+  deepest = 0;
+  for (int k = k_tip; (k_end - k) * step >= 0; k += step) {
+    const float depth = depth_below(q, point(k_end), point(k), sign);
+    if (depth > deepest) deepest = depth, corner = k;
+  }
+  const bool short_of_it = (corner - best) * step > 0 && length(point(corner) - point(best)) > tip_round;
+  return short_of_it ? corner : best;
 }
 
 }  // namespace

@@ -18,7 +18,6 @@ constexpr float kRepeatedEvidence = 0.2f;
 constexpr float kShortest_px = 8.0f;  // below it the outline's pixel steps are the shape
 constexpr float kRoundest = 1.35f;    // length^2 / area: a disc has 1.27, an angelfish 1.5, a trout 8
 constexpr int kArcReach = 4;          // points: a ragged rim is not longer than a smooth one
-constexpr float kBent = 0.6f;         // a straight fish is 0.8 to 0.95 of half its outline, a ring 0.3
 constexpr float kBeforeTail = 0.7f;   // of a bent fish's axis: from here its tail fin is looked at
 constexpr int kRounds = 2;            // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
@@ -110,7 +109,7 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
 
   // First guess of the ends, the paper's axis between them, then which end is which.
   Ends ends = find_ends(c, arcs, moments.centroid);
-  const bool bent = length(at(c, ends.head) - at(c, ends.tail)) < kBent * 0.5f * perimeter && find_tips(c, arcs, ends);
+  const bool bent = !encloses(c, moments.centroid) && find_tips(c, arcs, ends);
   const EllipticFourier fourier = fit_fourier(c, arcs, settings.harmonics);
   const auto t = [&](int i) { return arcs[static_cast<std::size_t>(i)] / perimeter; };
   axis = medial_axis(fourier, t(ends.head), t(ends.tail), smooth);

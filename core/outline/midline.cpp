@@ -10,8 +10,8 @@ namespace {
 constexpr int kLast = kStations - 1;
 // A ray that leaves the outline farther than this from its end point (share of the length) left through a flank.
 constexpr float kNearEnd = 0.06f, kNearHead = 0.12f;  // a blunt head's end point may be its corner
-constexpr float kNearNotch = 0.02f;         // of a forked tail: farther away lies a lobe
-constexpr int kFinsFrom = 7, kFinsTo = 42;  // stations where pectoral fins can stand
+constexpr float kNearNotch = 0.02f;                   // of a forked tail: farther away lies a lobe
+constexpr int kFinsFrom = 7, kFinsTo = 42;            // stations where pectoral fins can stand
 // Of the smoother: the axis may bend within about four stations; the body's width changes over ten or more.
 constexpr float kAxisStiffness = 1.0f, kBodyStiffness = 60.0f;
 // A mean half-width above kFinWidth body + kFinExcess length is a fin's.

@@ -37,6 +37,17 @@ Moments polygon_moments(std::span<const Vec2> contour) {
   return m;
 }
 
+bool encloses(std::span<const Vec2> contour, Vec2 p) {
+  bool inside = false;
+  const std::size_t n = contour.size();
+  for (std::size_t i = 0; i < n; ++i) {  // edges that a ray to the right crosses
+    const Vec2 a = contour[i], b = contour[i + 1 < n ? i + 1 : 0];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)) inside = !inside;
+  }
+  return inside;
+}
+
 float polygon_area(std::span<const Vec2> contour) {
   const std::size_t n = contour.size();
   double twice = 0;

@@ -19,6 +19,9 @@ struct Moments {
 
 Moments polygon_moments(std::span<const Vec2> contour);
 
+// Whether a point lies inside: of a fish bent into a C the barycentre does not.
+bool encloses(std::span<const Vec2> contour, Vec2 p);
+
 // Its area alone, with the same sign.
 float polygon_area(std::span<const Vec2> contour);
 

@@ -77,7 +77,17 @@ TEST(TurnRows, TwiceTurnedIsAsBeforeButForTheFins) {
   std::string row;
   std::getline(in, row), std::getline(in, row);
   const std::string twice = turned_row(turned_row(row, 3, 15), 3, 15);
-  EXPECT_EQ(twice.substr(0, twice.find(",-3.14")), row.substr(0, row.find(",-3.14")));
+  // dir_rad goes on by half a turn each time; the rest is as it was.
+  const auto up_to = [](const std::string& r, int cells) {
+    std::size_t at = 0;
+    while (cells-- > 0) at = r.find(',', at) + 1;
+    return at;
+  };
+  EXPECT_EQ(twice.substr(0, up_to(twice, 5)), row.substr(0, up_to(row, 5)));
+  EXPECT_EQ(twice.substr(up_to(twice, 6), up_to(twice, 10) - up_to(twice, 6)),
+            row.substr(up_to(row, 6), up_to(row, 10) - up_to(row, 6)));
+  EXPECT_EQ(twice.substr(up_to(twice, 22), up_to(twice, 61) - up_to(twice, 22)),
+            row.substr(up_to(row, 22), up_to(row, 61) - up_to(row, 22)));
   EXPECT_NE(turned_row(row, 3, 15), row);
 }
 

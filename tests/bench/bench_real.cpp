@@ -37,13 +37,16 @@ void print_row(const RealAccuracy& a) {
   std::fflush(stdout);
 }
 
-void print_fins(const RealAccuracy& a, const std::string& labels) {
+void print_fins(const RealAccuracy& a, const std::string& labels, bool odd) {
   for (const bool left : {true, false}) {
     const nt::test::FinAgreement f = nt::test::compare_fins(a, labels, left);
     std::printf(
         "  %s fin: seen by a person %d, of these by capture %d; not seen %d, of these not by capture %d; "
         "%d doubtful; agreement %.1f %%\n",
         left ? "left" : "right", f.seen, f.seen_by_us, f.unseen, f.unseen_by_us, f.doubtful, 100 * f.share());
+    if (!odd) continue;
+    for (const int frame : f.missed) std::fprintf(stderr, "  frame %d: missed\n", frame);
+    for (const int frame : f.invented) std::fprintf(stderr, "  frame %d: invented\n", frame);
   }
 }
 
@@ -134,7 +137,7 @@ int main(int argc, char** argv) try {
       continue;
     const RealAccuracy a = nt::test::measure_real(clip, o.folder, o.work);
     print_row(a);
-    if (!clip.fins.empty()) print_fins(a, clip.fins);
+    if (!clip.fins.empty()) print_fins(a, clip.fins, o.odd);
     if (o.odd) print_odd(a);
     if (!o.pictures.empty()) write_pictures(a, o);
   }

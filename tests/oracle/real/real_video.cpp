@@ -110,6 +110,8 @@ FinAgreement compare_fins(const RealAccuracy& clip, const std::string& labels, b
       const FishPose& pose = clip.all[i].pose;
       const bool ours = pose.ok() && (left ? pose.confidence.l_fin : pose.confidence.r_fin) > 0;
       const char label = left ? l : r;
+      if (label == '1' && !ours) out.missed.push_back(static_cast<int>(i));
+      if (label == '0' && ours) out.invented.push_back(static_cast<int>(i));
       out.doubtful += label == '?';
       out.seen += label == '1', out.seen_by_us += label == '1' && ours;
       out.unseen += label == '0', out.unseen_by_us += label == '0' && !ours;

@@ -39,9 +39,10 @@ std::vector<cv::Mat> read_grey(const std::string& path);  // all frames; empty w
 
 // Fins that a person sees or not, against what capture says.
 struct FinAgreement {
-  int seen = 0, seen_by_us = 0;      // a person sees the fin; of these we do
-  int unseen = 0, unseen_by_us = 0;  // a person does not; of these we do not
-  int doubtful = 0;                  // a person cannot tell: not counted
+  int seen = 0, seen_by_us = 0;       // a person sees the fin; of these we do
+  int unseen = 0, unseen_by_us = 0;   // a person does not; of these we do not
+  int doubtful = 0;                   // a person cannot tell: not counted
+  std::vector<int> missed, invented;  // frames
 
   double share() const {
     return static_cast<double>(seen_by_us + unseen_by_us) / static_cast<double>(std::max(seen + unseen, 1));

@@ -88,7 +88,7 @@ TEST(Body, TheMoreOpaqueHalfIsTheHeads) {
   Axis axis;
   for (int j = 0; j < kStations; ++j)
     axis.points[static_cast<std::size_t>(j)] = {20.0f + 2.0f * static_cast<float>(j), 20};
-  EXPECT_EQ(contrast_evidence(axis, luma.luma(), ground.luma()), 0);
+  EXPECT_NEAR(contrast_evidence(axis, luma.luma(), ground.luma()), 0, 1e-6f);
   for (int x = 20; x < 80; ++x) luma.at(x, 20) = 20;   // the front differs by 80,
   for (int x = 80; x < 150; ++x) luma.at(x, 20) = 70;  // the back by 30
   EXPECT_GT(contrast_evidence(axis, luma.luma(), ground.luma()), 0.5f);
@@ -125,6 +125,8 @@ TEST(Body, BeliefsAgreeAsProbabilitiesDo) {
   }
   EXPECT_NEAR(agreed(2, 9.2f), 2, 0.01f) << "an ordinary belief goes on nearly whole";
   EXPECT_NEAR(agreed(8, 0), 0, 1e-4f) << "and is gone after a gap";
+  EXPECT_NEAR(agreed(50, -9.2f), -9.2f, 0.01f) << "what a person says is turned with the fish";
+  EXPECT_NEAR(agreed(-50, -9.2f), 9.2f, 0.01f);
 }
 
 TEST(Body, AFishBentIntoARingHasItsEndsAtItsTips) {

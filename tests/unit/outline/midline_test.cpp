@@ -103,8 +103,8 @@ TEST(Midline, TheAxisRunsToTheEndsOfTheOutline) {
   const Scene s(FishShape{.bend = 0.5f});
   std::vector<Vec2> part(s.axis.points.begin() + 4, s.axis.points.end() - 4);
   const Axis shorter = resampled(part);
-  for (const Axis& axis : {joined_to_ends(shorter, s.fish.head(), s.fish.tail(), 0.05f),
-                           extended_to_outline(shorter, s.fish.contour(), s.fish.head(), s.fish.tail(), 0.05f)}) {
+  const AxisEnds ends{s.fish.head(), s.fish.tail()};
+  for (const Axis& axis : {joined_to_ends(shorter, ends), extended_to_outline(shorter, s.fish.contour(), ends)}) {
     EXPECT_LT(length(axis.points[0] - s.fish.head()), 3);
     EXPECT_LT(length(axis.points[kLast] - s.fish.tail()), 3);
     EXPECT_NEAR(axis.length, s.fish.axis_length(), 3);

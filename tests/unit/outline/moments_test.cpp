@@ -43,5 +43,14 @@ TEST(Moments, WithoutAreaThereAreNone) {
   }
 }
 
+TEST(Moments, APointLiesInsideOrNot) {
+  // A C of straight pieces, open to the right.
+  const std::vector<Vec2> c = {{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 8}, {10, 8}, {10, 10}, {0, 10}};
+  for (const Vec2 in : {Vec2{1, 5}, Vec2{5, 1}, Vec2{9.5f, 9}}) EXPECT_TRUE(encloses(c, in));
+  for (const Vec2 out : {Vec2{5, 5}, Vec2{-1, 5}, Vec2{11, 1}, Vec2{5, -1}, polygon_moments(c).centroid})
+    EXPECT_FALSE(encloses(c, out));
+  EXPECT_FALSE(encloses({}, {0, 0}));
+}
+
 }  // namespace
 }  // namespace nt

@@ -310,12 +310,12 @@ double Lattice::iterate() {
   return anderson_.mix(f_, x_);
 }
 
-// What the exact pass moved the bones by is spread over the vertices around them: two sweeps of the harmonic mean.
+// What the exact pass moved the bones by is spread over the vertices around them: eight sweeps of the harmonic mean.
 void Lattice::spread_bone_shift() {
   for (std::size_t i = 0; i < n_; ++i) {
     b_[i] = on_bone_[i] ? to4(pose_[i] - at(i)) : splat4(0.0f);
   }
-  for (int sweep = 0; sweep < 2; ++sweep) {
+  for (int sweep = 0; sweep < 8; ++sweep) {
     for (std::size_t i = 0; i < n_; ++i) {
       if (on_bone_[i]) continue;
       Float4 sum = splat4(0.0f);

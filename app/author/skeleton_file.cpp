@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/author/skeleton_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+bool read_limit(const std::string& key, std::istringstream& in, JointLimits& limits) {
+  float low = 0.0f, high = 0.0f;
+  if (!(in >> low >> high) || !(low <= high) || low < -180.0f || high > 180.0f) return false;
+  low *= det::kPi / 180.0f, high *= det::kPi / 180.0f;
+  if (key == "twist") limits.twist_min = low, limits.twist_max = high;
+  if (key == "y") limits.y_min = low, limits.y_max = high;
+  if (key == "z") limits.z_min = low, limits.z_max = high;
+  return key == "twist" || key == "y" || key == "z";
+}
+
+}  // namespace
+
+SkeletonSpec parse_skeleton(const std::string& text, const std::string& name) {
+  SkeletonSpec out;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto bad = [&](const std::string& what) {
+      return UserError(name + ", line " + std::to_string(number) + ": " + what);
+    };
+    std::istringstream in(line.substr(0, line.find('#')));
+    SkeletonSpec::Joint joint;
+    std::string parent;
+    if (!(in >> joint.name)) continue;
+    if (!(in >> parent >> joint.position.x >> joint.position.y >> joint.position.z)) {
+      throw bad("NAME PARENT X Y Z is wanted");
+    }
+    if (parent != "-") {
+      const auto at =
+          std::find_if(out.joints.begin(), out.joints.end(), [&](const auto& j) { return j.name == parent; });
+      if (at == out.joints.end()) throw bad("there is no joint '" + parent + "' above");
+      joint.parent = static_cast<int>(at - out.joints.begin());
+    }
+    for (std::string key; in >> key;) {
+      if (!read_limit(key, in, joint.limits)) throw bad("'" + key + "' wants two angles within -180 and 180 degrees");
+    }
+    out.joints.push_back(joint);
+  }
+  if (out.joints.empty()) throw UserError(name + " has no joint in it");
+  return out;
+}
+
+SkeletonSpec read_skeleton(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw UserError("cannot read " + path + "; is the name right?");
+  return parse_skeleton(std::string((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()), path);
+}
+
+}  // namespace nt

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// neontetra markers: recorded markers move a mesh.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "app/author/skeleton_file.h"
+#include "app/author/triangle_mesh.h"
+#include "app/check_outputs.h"
+#include "app/cli.h"
+#include "app/export/report.h"
+#include "app/export/video_writer.h"
+#include "app/mocap/marker_puppet.h"
+#include "app/mocap/mesh_view.h"
+#include "app/progress.h"
+#include "app/text_file.h"
+#include "platform/camera.h"
+#include "platform/linux/clock.h"
+
+namespace nt {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 640;
+
+struct Options {
+  std::string file, mesh, skeleton, only, axes, out, csv;
+  int vertices = 600, iterations = 10;
+  int64_t frame = 0, frames = -1;
+  float bone_weight = LatticeSettings{}.w_d;
+  std::string embedding = "phong";
+  bool stacked = false, json = false;
+};
+
+struct Summary {
+  int64_t frames = 0, held = 0, factorised = 0, guarded = 0;
+  float largest_step = 0.0f;  // of a mesh vertex between two frames, over the diagonal
+  int64_t largest_step_frame = 0;
+  float worst_rrms = 0.0f, worst_bone = 0.0f, worst_volume = 0.0f;
+  double rrms = 0.0, marker_error = 0.0, solve_us = 0.0, bone_error = 0.0;
+  int worst_inverted = 0;
+  int64_t frames_with_inverted = 0;
+};
+
+// The markers whose names begin with one of the words of --only, separated by commas; all where it is empty.
+std::vector<std::size_t> chosen_markers(const MarkerFile& file, const std::string& only) {
+  std::vector<std::size_t> out;
+  for (std::size_t m = 0; m < file.markers(); ++m) {
+    bool wanted = only.empty();
+    for (std::size_t from = 0; from < only.size();) {
+      const std::size_t to = std::min(only.find(',', from), only.size());
+      const std::string word = only.substr(from, to - from);
+      wanted = wanted || (!word.empty() && file.names[m].rfind(word, 0) == 0);
+      from = to + 1;
+    }
+    if (wanted) out.push_back(m);
+  }
+  if (out.empty()) {
+    throw UserError("no marker's name begins with --only '" + only + "'; the first is '" + file.names[0] + "'", 2);
+  }
+  return out;
+}
+
+float diagonal_of(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
+
+class Player {
+ public:
+  Player(const Options& options, const TriangleMesh& mesh, const SkeletonSpec& skeleton, const MarkerFile& file)
+      : options_(options), file_(file), diagonal_(diagonal_of(mesh.positions)) {
+    PuppetOptions puppet;
+    puppet.lattice.vertices = options.vertices;
+    puppet.lattice.form = options.stacked ? LatticeForm::stacked : LatticeForm::arap;
+    puppet.solver.max_iterations = options.iterations;
+    puppet.solver.w_d = options.bone_weight;
+    if (!options.axes.empty()) puppet.turns = {parse_axes(options.axes)};
+    puppet.phong = options.embedding == "phong";
+    puppet_ = std::make_unique<MarkerPuppet>(mesh, skeleton, file, chosen_markers(file, options.only),
+                                             static_cast<std::size_t>(options.frame), puppet);
+    const int64_t left = static_cast<int64_t>(file.frames()) - options.frame;
+    end_ = options.frame + (options.frames < 0 ? left : std::min(left, options.frames));
+    if (!options.out.empty()) video_ = std::make_unique<VideoWriter>(options.out, kWidth, kHeight, file.rate_hz);
+    if (!options.csv.empty()) open_csv();
+  }
+  Summary play() {
+    Progress progress(end_ - options_.frame);
+    MeshView view(kWidth, kHeight, upright(), 0.55f * diagonal_);
+    for (int64_t f = options_.frame; f < end_; ++f) {
+      take(f);
+      if (video_ != nullptr) {
+        const cv::Mat& picture = view.draw(puppet_->places(), puppet_->triangles(), puppet_->targets(), centre());
+        video_->add({picture.data, picture.total() * 3});
+      }
+      if (csv_ != nullptr) write_row(f);
+      progress.show(f - options_.frame + 1);
+    }
+    if (video_ != nullptr) video_->finish();
+    if (csv_ != nullptr) csv_->close();
+    return sum_;
+  }
+  const MarkerPuppet& puppet() const { return *puppet_; }
+  float diagonal() const { return diagonal_; }
+
+ private:
+  // A little from above and from the side; the mesh's own up is y, as in most files.
+  static Quat upright() {
+    return from_rotation_vector({0.15f, 0.0f, 0.0f}) * from_rotation_vector({0.0f, -0.5f, 0.0f});
+  }
+  Vec3 centre() const {
+    Vec3 sum;
+    for (const Vec3 p : puppet_->lattice().vertices()) sum += p;
+    return sum * (1.0f / static_cast<float>(puppet_->lattice().vertices().size()));
+  }
+  void take(int64_t f) {
+    last_ = puppet_->places();
+    const int64_t before_ns = steady_now_ns();
+    const LatticeReport report = puppet_->step(file_.frame(static_cast<std::size_t>(f)));
+    sum_.solve_us += static_cast<double>(steady_now_ns() - before_ns) * 1e-3;
+    ++sum_.frames;
+    sum_.held += report.held, sum_.factorised += report.factorised, sum_.guarded += report.guarded;
+    if (f == options_.frame) volume_ = puppet_->volume();
+    if (f > options_.frame) measure_step(f);
+    const LatticeQuality q = puppet_->lattice().quality();
+    sum_.rrms += static_cast<double>(q.rrms);
+    sum_.worst_rrms = std::max(sum_.worst_rrms, q.rrms);
+    sum_.worst_bone = std::max(sum_.worst_bone, q.bone_error_max);
+    sum_.bone_error += static_cast<double>(q.bone_error_sum);
+    sum_.worst_inverted = std::max(sum_.worst_inverted, q.inverted);
+    sum_.frames_with_inverted += q.inverted > 0;
+    const double change = std::abs(puppet_->volume() / volume_ - 1.0);
+    sum_.worst_volume = std::max(sum_.worst_volume, static_cast<float>(change));
+    sum_.marker_error += static_cast<double>(puppet_->marker_error() / diagonal_);
+  }
+  void measure_step(int64_t f) {
+    const auto& now = puppet_->places();
+    for (std::size_t i = 0; i < now.size(); i += 3) {
+      const Vec3 moved{now[i] - last_[i], now[i + 1] - last_[i + 1], now[i + 2] - last_[i + 2]};
+      const float step = length(moved) / diagonal_;
+      if (step > sum_.largest_step) sum_.largest_step = step, sum_.largest_step_frame = f;
+    }
+  }
+  void open_csv() {
+    csv_ = std::make_unique<TextFile>(options_.csv);
+    std::string head = "frame,time";
+    for (std::size_t v = 0; v < puppet_->lattice().vertices().size(); ++v) {
+      for (const char* axis : {"_x", "_y", "_z"}) head += ",v" + std::to_string(v) + axis;
+    }
+    csv_->write(head + "\n");
+  }
+  void write_row(int64_t f) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%lld,%.4f", static_cast<long long>(f), static_cast<double>(f) / file_.rate_hz);
+    std::string row = text;
+    for (const Vec3 p : puppet_->lattice().vertices()) {
+      std::snprintf(text, sizeof text, ",%.6g,%.6g,%.6g", static_cast<double>(p.x), static_cast<double>(p.y),
+                    static_cast<double>(p.z));
+      row += text;
+    }
+    csv_->write(row + "\n");
+  }
+
+  const Options& options_;
+  const MarkerFile& file_;
+  float diagonal_;
+  int64_t end_ = 0;
+  double volume_ = 1.0;
+  std::unique_ptr<MarkerPuppet> puppet_;
+  std::unique_ptr<VideoWriter> video_;
+  std::unique_ptr<TextFile> csv_;
+  std::vector<float> last_;
+  Summary sum_;
+};
+
+Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
+  const BuiltLattice& built = player.puppet().built();
+  const auto n = static_cast<double>(std::max<int64_t>(s.frames, 1));
+  Json json;
+  json["frames"] = s.frames;
+  json["rate_hz"] = file.rate_hz;
+  json["markers"] = built.data.markers.size();
+  json["notes"] = file.notes;
+  json["registration_rms"] = player.puppet().registration().rms / player.diagonal();
+  json["lattice"] = {
+      {"vertices", built.data.vertices.size()},       {"tetrahedra", built.data.tetrahedra.size() / 4},
+      {"joints", built.data.joint_vertex.size()},     {"solver_bytes", Lattice::bytes_needed(built.data.view())},
+      {"mesh_vertices", built.embedding.slot.size()}, {"mesh_vertices_outside", built.outside}};
+  json["frames_held"] = s.held;
+  json["factorisations"] = s.factorised;
+  json["mixed_steps_taken_back"] = s.guarded;
+  json["largest_step"] = s.largest_step;
+  json["largest_step_frame"] = s.largest_step_frame;
+  json["rrms_mean"] = s.rrms / n;
+  json["rrms_worst"] = s.worst_rrms;
+  json["volume_error_worst"] = s.worst_volume;
+  json["bone_error_sum_mean"] = s.bone_error / n;
+  json["bone_error_worst"] = s.worst_bone;
+  json["inverted_worst"] = s.worst_inverted;
+  json["frames_with_inverted"] = s.frames_with_inverted;
+  json["marker_error_mean"] = s.marker_error / n;
+  json["frame_us_mean"] = s.solve_us / n;
+  return json;
+}
+
+std::string line_of(const Json& json) {
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "%lld frames, %zu markers, lattice of %zu vertices; largest step of a vertex %.2f %% of the mesh's "
+                "diagonal (frame %lld), bones within %.4f %%, %.0f us a frame\n",
+                static_cast<long long>(json["frames"].get<int64_t>()), json["markers"].get<std::size_t>(),
+                json["lattice"]["vertices"].get<std::size_t>(), 100.0 * json["largest_step"].get<double>(),
+                static_cast<long long>(json["largest_step_frame"].get<int64_t>()),
+                100.0 * json["bone_error_worst"].get<double>(), json["frame_us_mean"].get<double>());
+  return text;
+}
+
+void markers(const Options& options) {
+  check_outputs({options.file, options.mesh, options.skeleton}, {options.out, options.csv});
+  const MarkerFile file = read_marker_file(options.file);
+  for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
+  if (options.frame < 0 || options.frame >= static_cast<int64_t>(file.frames())) {
+    throw UserError("--frame is beyond the file's " + std::to_string(file.frames()) + " frames", 2);
+  }
+  const TriangleMesh mesh = read_triangles(options.mesh);
+  const SkeletonSpec skeleton = options.skeleton.empty() ? SkeletonSpec{} : read_skeleton(options.skeleton);
+  Player player(options, mesh, skeleton, file);
+  const Summary summary = player.play();
+  const Json json = report_of(player, file, summary);
+  write_text("-", options.json ? pretty(json) : line_of(json));
+}
+
+}  // namespace
+
+void add_markers(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("markers", "Move a mesh by recorded markers");
+  auto options = std::make_shared<Options>();
+  command->add_option("file", options->file, "recorded markers: C3D, TRC, Qualisys TSV or CSV")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--mesh", options->mesh, "the mesh to move, standing in the pose of --frame")
+      ->required()
+      ->type_name("MESH");
+  command->add_option("--skeleton", options->skeleton, "its joints, as text (docs/FORMATS.md)")->type_name("FILE");
+  command->add_option("--only", options->only, "markers whose names begin so, separated by commas")->type_name("NAMES");
+  command
+      ->add_option("--axes", options->axes,
+                   "the file's axes that are the mesh's x, y, z, such as x,z,-y (default: by trying)")
+      ->type_name("AXES");
+  command->add_option("--frame", options->frame, "where the actor stands as the mesh does; play from there (default 0)")
+      ->type_name("N");
+  command->add_option("--frames", options->frames, "how many (default all)")->type_name("N");
+  command->add_option("--vertices", options->vertices, "of the lattice, about (default 600)")
+      ->type_name("N")
+      ->check(CLI::Range(100, 2000));
+  command->add_option("--iterations", options->iterations, "a frame (default 10)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--bone-weight", options->bone_weight, "how stiff bones are before the exact pass (default 2)")
+      ->type_name("W")
+      ->check(CLI::Range(0.0f, 100.0f));
+  command->add_option("--embedding", options->embedding, "linear or phong (default phong)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"linear", "phong"}));
+  command->add_flag("--stacked", options->stacked, "the paper's stacked equations in place of the ARAP energy");
+  command->add_option("--out", options->out, "a film of it")->type_name("VIDEO");
+  command->add_option("--csv", options->csv, "the lattice's vertices, a row a frame")->type_name("FILE");
+  command->add_flag("--json", options->json, "what was measured, as JSON");
+  command->footer("Example: neontetra markers walk.c3d --mesh human.obj --out walk.mp4");
+  command->callback([&action, options] { action = [options] { markers(*options); }; });
+}
+
+}  // namespace nt

@@ -39,7 +39,7 @@ class LatticeOracle {
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(index(rest_.size()), 3);
     for (std::size_t i = 0; i < rest_.size(); ++i) {
       Vec delta = Vec::Zero();
-      for (const auto& [j, w] : weights_[i]) delta += 0.5 * w * (turns_[i] + turns_[j]) * (rest_[i] - rest_[j]);
+      for (const auto& [j, w] : list_[i]) delta += 0.5 * w * (turns_[i] + turns_[j]) * (rest_[i] - rest_[j]);
       right.row(index(i)) = delta;
     }
     if (stacked()) right = laplacian_ * right;
@@ -105,6 +105,7 @@ class LatticeOracle {
     const double median = magnitudes[magnitudes.size() / 2];
     for (auto& row : weights_) {
       for (auto& entry : row) entry.second = std::clamp(entry.second / median, 0.05, 20.0);
+      list_.emplace_back(row.begin(), row.end());
     }
   }
 
@@ -145,7 +146,7 @@ class LatticeOracle {
   void find_turns() {
     for (std::size_t i = 0; i < rest_.size(); ++i) {
       Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-      for (const auto& [j, w] : weights_[i]) s += w * (rest_[i] - rest_[j]) * (vertex(i) - vertex(j)).transpose();
+      for (const auto& [j, w] : list_[i]) s += w * (rest_[i] - rest_[j]) * (vertex(i) - vertex(j)).transpose();
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
       Eigen::Matrix3d u = svd.matrixU();
       if ((svd.matrixV() * u.transpose()).determinant() < 0.0) u.col(2) *= -1.0;
@@ -175,6 +176,7 @@ class LatticeOracle {
   LatticeSettings settings_;
   std::vector<Vec> rest_;
   std::vector<std::map<std::size_t, double>> weights_;
+  std::vector<std::vector<std::pair<std::size_t, double>>> list_;  // the same, for speed
   Eigen::SparseMatrix<double> laplacian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
   Eigen::MatrixXd x_;

@@ -2,12 +2,18 @@
 #include "app/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <limits>
 
 #include "app/nearest_name.h"
 #include "platform/camera.h"
 
 namespace nt {
+namespace {
+
+constexpr int kMostCorners = 256;
+
+}  // namespace
 
 BackgroundOption parse_background(const std::string& text) {
   using Kind = BackgroundOption::Kind;
@@ -21,6 +27,54 @@ BackgroundOption parse_background(const std::string& text) {
                       nearest_name(text.substr(0, text.find(':')), names) +
                       "'? (there are: vibe, still[:PICTURE], backlit, auto)",
                   2);
+}
+
+namespace {
+
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    parts.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return parts;
+}
+
+}  // namespace
+
+RoiOption parse_roi(const std::string& text) {
+  const std::vector<std::string> parts = parts_of(text);
+  if (parts.size() != 4)
+    throw UserError("--roi must be x,y,w,h in shares of the picture, 0 to 1, not '" + text + "'", 2);
+  const auto share = [&](std::size_t i, const char* name, double most) {
+    return parse_number(std::string("--roi ") + name, parts[i], 0, most);
+  };
+  RoiOption roi;
+  roi.x = share(0, "x", 1), roi.y = share(1, "y", 1);
+  roi.width = share(2, "w", 1), roi.height = share(3, "h", 1);
+  constexpr double kRounding = 1e-6;
+  if (roi.width <= 0 || roi.height <= 0 || roi.x + roi.width > 1 + kRounding || roi.y + roi.height > 1 + kRounding) {
+    throw UserError(
+        "--roi " + text + " does not lie inside the picture: x + w and y + h are at most 1, w and h above 0", 2);
+  }
+  return roi;
+}
+
+void parse_tank(const std::vector<std::string>& words, AreaOptions& area) {
+  area.polygon.clear();
+  area.picture.clear();
+  if (words.size() == 1 && parts_of(words[0]).size() != 2) {
+    area.picture = words[0];
+    return;
+  }
+  for (const std::string& word : words) {
+    const std::vector<std::string> parts = parts_of(word);
+    if (parts.size() != 2) throw UserError("--tank: '" + word + "' is no corner X,Y in pixels of the source video", 2);
+    area.polygon.push_back({static_cast<float>(parse_number("--tank X", parts[0], 0, 65535)),
+                            static_cast<float>(parse_number("--tank Y", parts[1], 0, 65535))});
+  }
+  if (area.polygon.size() < 3) throw UserError("--tank needs three corners at least, X,Y X,Y X,Y, or a picture", 2);
 }
 
 SelectOption parse_select(const std::string& text) {
@@ -64,6 +118,24 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
       "the fish nearest to this pixel of the source video, or auto: the one that moves and stays fish-shaped "
       "(default)");
   text(
+      "--roi", [&o](const std::string& s) { o.area.roi = parse_roi(s); }, "X,Y,W,H",
+      "look for fish in this part of the picture only, in shares of its width and height: 0.25,0,0.5,1 is the middle "
+      "half");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--tank", [&o](const std::vector<std::string>& words) { parse_tank(words, o.area); },
+          "the tank's corners X,Y X,Y X,Y ... in pixels of the source video, or a picture that is black outside of it: "
+          "nothing outside is a fish")
+      ->type_name("CORNERS|FILE")
+      ->option_text("CORNERS|FILE")
+      ->expected(1, kMostCorners);
+  text(
+      "--min-size", [&o](const std::string& s) { o.area.min_size = parse_integer("--min-size", s, 1, 1'000'000'000); },
+      "N", "fewer pixels of the source video than this are no fish (default: 1/4000 of the picture)");
+  text(
+      "--max-size", [&o](const std::string& s) { o.area.max_size = parse_integer("--max-size", s, 1, 1'000'000'000); },
+      "N", "more pixels than this are no fish (default: no limit)");
+  text(
       "--harmonics",
       [&o](const std::string& s) { o.harmonics = static_cast<int>(parse_integer("--harmonics", s, 1, 16)); }, "N",
       "elliptic Fourier harmonics of the outline (default 5)");
@@ -76,7 +148,7 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
 }
 
 std::vector<std::string> inputs_of(const CaptureOptions& options) {
-  return {options.camera.path, options.background.picture};
+  return {options.camera.path, options.background.picture, options.area.picture};
 }
 
 }  // namespace nt

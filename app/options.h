@@ -30,6 +30,23 @@ struct SelectOption {
 };
 SelectOption parse_select(const std::string& text);  // auto | X,Y
 
+// A part of the picture in shares of its width and height, as rpicam-apps have it.
+struct RoiOption {
+  double x = 0, y = 0, width = 1, height = 1;
+};
+RoiOption parse_roi(const std::string& text);  // x,y,w,h, each 0 to 1
+
+// Where fish can be and how large they are.
+struct AreaOptions {
+  std::optional<RoiOption> roi;
+  std::vector<Vec2> polygon;           // pixels of the source video; empty: everywhere
+  std::string picture;                 // or a picture of the tank: black is outside
+  int64_t min_size = 0, max_size = 0;  // pixels of the source video that a fish covers; 0: as core thinks fit, no limit
+  bool everywhere() const { return !roi && polygon.empty() && picture.empty(); }
+};
+// Corners "x,y" in order, three at least, or the path of one picture.
+void parse_tank(const std::vector<std::string>& words, AreaOptions& area);
+
 struct CaptureOptions {
   CameraSpec camera;
   std::optional<Size> work;  // unset: 960x544
@@ -37,6 +54,8 @@ struct CaptureOptions {
   int64_t frames = 0;        // 0: all
   BackgroundOption background;
   SelectOption select;
+  AreaOptions area;
+  int max_fish = 1;
   int harmonics = 5;
   uint64_t seed = 1;
 };

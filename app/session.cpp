@@ -10,6 +10,7 @@
 
 #include "app/author/choose_background.h"
 #include "app/export/pose_csv.h"
+#include "app/tank_mask.h"
 #include "platform/linux/clock.h"
 #include "platform/linux/heap_count.h"
 
@@ -99,6 +100,11 @@ void Session::create_capture(const CaptureOptions& options, BackgroundKind kind)
   settings.background.kind = kind;
   settings.harmonics = options.harmonics;
   settings.seed = options.seed;
+  settings.max_fish = options.max_fish;
+  const cv::Mat tank = tank_mask(options.area, info());
+  if (!tank.empty()) settings.tank = frame_of(tank).luma;
+  settings.min_area_px = working_area(options.area.min_size);
+  settings.max_area_px = working_area(options.area.max_size);
   memory_ = AlignedBlock(Capture::bytes_needed(limits, settings));
   Result<Capture*> made = Capture::create(memory_.bytes(), limits, settings, info().width, info().height);
   if (!made.ok()) throw UserError(info().name + ": " + made.status().message);
@@ -114,6 +120,13 @@ void Session::learn(const CaptureOptions& options, BackgroundKind kind) {
     const std::size_t count = std::min<std::size_t>(kLearnFrames, frames.size());
     for (std::size_t i = 0; i < count; ++i) capture_->learn(frame_of(frames[i * frames.size() / count]));
   }
+}
+
+// Pixels of the source video -> of the working frame.
+int Session::working_area(int64_t source_px) const {
+  if (source_px == 0) return 0;
+  const double area = static_cast<double>(source_px) / (static_cast<double>(scale()) * static_cast<double>(scale()));
+  return std::max(1, static_cast<int>(std::min(area, 1e9)));
 }
 
 float Session::scale() const { return static_cast<float>(info().source_width) / static_cast<float>(info().width); }

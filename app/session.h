@@ -41,6 +41,7 @@ class Session {
   BackgroundKind choose_model(const CaptureOptions& options);
   void select(Vec2 at);  // of the source picture; throws UserError outside of it
   void create_capture(const CaptureOptions& options, BackgroundKind kind);
+  int working_area(int64_t source_px) const;
   void learn(const CaptureOptions& options, BackgroundKind kind);
   void count_gap(const Frame& frame);
 

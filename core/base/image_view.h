@@ -40,6 +40,7 @@ struct BitMask {
   int width = 0;
   int height = 0;
   int words_per_row = 0;
+  bool empty() const { return width <= 0 || height <= 0; }
   uint64_t* row(int y) const { return words + static_cast<std::ptrdiff_t>(y) * words_per_row; }
   bool at(int x, int y) const {
     return x >= 0 && y >= 0 && x < width && y < height && ((row(y)[x >> 6] >> (x & 63)) & 1u) != 0;

@@ -67,6 +67,7 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   if (refine.blobs_dropped()) tools.report.flags |= kBlobsDropped;
   if (fish.shadow_removed) tools.report.flags |= kShadowRemoved;
   protect_from_learning(fish);
+  const bool leaves_tank = clip(tools, fish);
   touching_ = part(tools, fish, index);
   tools.clock.lap(Stage::refine);
   const int count = trace_outline(fish.mask, fish.box.x0, fish.box.y0, contour);
@@ -76,9 +77,21 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   const bool cut = measure_contour(luma.width, luma.height);
   tools.clock.lap(Stage::outline);
   const float enclosed = enclosed_px();
-  if (cut) return PoseStatus::partial;
+  if (cut || leaves_tank) return PoseStatus::partial;
   if (enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed) return PoseStatus::occluded;
   return contour_count > 0 ? PoseStatus::ok : PoseStatus::lost;
+}
+
+// Cuts off what lies outside of the tank; true when there was something.
+bool FishTrack::clip(const CaptureTools& tools, const FishMask& fish) const {
+  if (tools.tank == nullptr) return false;
+  uint64_t outside = 0;
+  for (int y = 0; y < fish.mask.height; ++y) {
+    uint64_t* row = fish.mask.row(y);
+    const uint64_t* tank = tools.tank->row(y + fish.box.y0) + fish.box.x0 / 64;
+    for (int i = 0; i < fish.mask.words_per_row; ++i) outside |= row[i] & ~tank[i], row[i] &= tank[i];
+  }
+  return outside != 0;
 }
 
 // Takes away from what was taken back to the blob what belongs to other swimmers whose fins touch this one's. False when

@@ -28,6 +28,7 @@ struct CaptureTools {
   Background& background;
   const Blobs& blobs;
   Swimmers& swimmers;
+  const BitMask* tank;               // where fish can be; null: everywhere
   std::span<const BitMask> scratch;  // three, as large as the frame
   Refine& refine;
   Landmarks& landmarks;
@@ -63,6 +64,7 @@ struct FishTrack {
  private:
   PoseStatus look_for(const CaptureTools& tools, Swimmer& swimmer);
   PoseStatus outline(const CaptureTools& tools, int blob);
+  bool clip(const CaptureTools& tools, const FishMask& fish) const;
   bool part(const CaptureTools& tools, const FishMask& fish, int blob) const;
   bool measure_contour(int width, int height);
   float enclosed_px() const;

@@ -43,6 +43,8 @@ struct CaptureImpl final : Capture {
   Target target;
   std::span<FishTrack> fish;
   int target_fish = 0;
+  BitMask tank;  // where fish can be; of width 0: everywhere
+  int tank_pixels = 0;
   BitMask keep;  // what all fish protect, where there are several
 
   int view_count = 0;
@@ -52,6 +54,7 @@ struct CaptureImpl final : Capture {
   bool layout(Arena& arena, int w, int h);
   StepReport run(const Frame& frame, NowNs now);
   bool segment(const Frame& frame, StageClock& clock, StepReport& report);
+  void fill_tank();
   const BitMask* protected_pixels();
   void unprotect();
   void number_fish();
@@ -85,6 +88,7 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   refine = Refine::create(arena, limits);
   landmarks = Landmarks::create(arena, limits, {settings.u_num, settings.l_num, settings.harmonics});
   views = arena.take<BlobView>(static_cast<std::size_t>(max_int(limits.max_blobs, 0)));
+  if (settings.tank.data != nullptr) tank = take_mask(arena, w, h);
   const int count = clamp_int(settings.max_fish, 1, kMostFish);
   if (count > 1) keep = take_mask(arena, w, h);
   fish = arena.take<FishTrack>(static_cast<std::size_t>(count));
@@ -96,12 +100,23 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   return !arena.full();
 }
 
+void CaptureImpl::fill_tank() {
+  tank_pixels = width * height;
+  if (tank.empty()) return;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (settings.tank.row(y)[x] != 0) tank.set(x, y);
+  tank_pixels = max_int(count_bits(tank), 1);
+  settings.tank = {};  // its owner may forget it
+}
+
 // Background to blobs. False when the mask of this frame means nothing.
 bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& report) {
   const bool means_something = background->apply(frame.luma, protected_pixels(), raw);
   clock.lap(Stage::background);
-  report.foreground_share =
-      static_cast<float>(count_bits(raw)) / (static_cast<float>(width) * static_cast<float>(height));
+  if (!tank.empty())
+    for (int i = 0; i < raw.words_per_row * height; ++i) raw.words[i] &= tank.words[i];
+  report.foreground_share = static_cast<float>(count_bits(raw)) / static_cast<float>(tank_pixels);
   flood_frames = report.foreground_share > kFloodShare ? flood_frames + 1 : 0;
   if (flood_frames >= kFloodFrames) {
     background->restart();
@@ -236,7 +251,8 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
   number_fish();
   publish_blobs();
   clock.lap(Stage::target);
-  const CaptureTools tools{frame, settings, *background, *blobs, swimmers, scratch, *refine, *landmarks, clock, report};
+  const CaptureTools tools{frame,   settings, *background, *blobs, swimmers, tank.empty() ? nullptr : &tank,
+                           scratch, *refine,  *landmarks,  clock,  report};
   for (FishTrack& one : fish) one.follow(tools);
   return finish(report, the_fish(kTarget).pose.status);
 }
@@ -260,6 +276,8 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
     return Status{StatusCode::bad_argument, "the frame does not fit Limits::max_width x max_height: raise them"};
   if (settings.max_fish < 1 || settings.max_fish > kMostFish)
     return Status{StatusCode::bad_argument, "max_fish must be 1 to 16"};
+  if (settings.tank.data != nullptr && (settings.tank.width != width || settings.tank.height != height))
+    return Status{StatusCode::bad_argument, "the tank's mask must be as large as the frames"};
   if (settings.open_size < 1 || settings.open_size % 2 == 0)
     return Status{StatusCode::bad_argument, "open_size must be odd: 1, 3, 5 ..."};
   Arena arena(memory);
@@ -272,6 +290,8 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
   if (!c.layout(arena, width, height))
     return Status{StatusCode::out_of_memory, "the memory handed to core is smaller than bytes_needed()"};
   c.swimmers.set_lost_after(settings.lost_after);
+  c.swimmers.set_largest(settings.max_area_px);
+  c.fill_tank();
   c.bytes_used = arena.used();
   return static_cast<Capture*>(&c);
 }

@@ -27,9 +27,12 @@ struct CaptureSettings {
   BackgroundSettings background;
   int u_num = 3;
   int l_num = 15;
-  int harmonics = 5;         // S of [F] section 4.3
-  int open_size = 3;         // side of the opening's square; 1 switches it off
-  int min_area_px = 0;       // smaller blobs are dropped; 0 = 1/4000 of the frame
+  int harmonics = 5;    // S of [F] section 4.3
+  int open_size = 3;    // side of the opening's square; 1 switches it off
+  int min_area_px = 0;  // smaller blobs are dropped; 0 = 1/4000 of the frame
+  int max_area_px = 0;  // larger ones are no fish; 0 = no such limit
+  // Where fish can be: as large as the frame, 0 = nothing there is a fish. Copied by create(). Without it: everywhere.
+  LumaView tank;
   bool shadows = true;       // Otsu shadow removal, where the background model can have shadows at all
   int lost_after = 30;       // frames without the target until it counts as lost and selection starts anew
   int max_fish = 1;          // with a pose at a time, 1 to kMostFish; the target is one of them

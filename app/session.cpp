@@ -103,6 +103,8 @@ void Session::create_capture(const CaptureOptions& options, BackgroundKind kind)
   settings.max_fish = options.max_fish;
   const cv::Mat tank = tank_mask(options.area, info());
   if (!tank.empty()) settings.tank = frame_of(tank).luma;
+  if (options.area.max_size > 0 && options.area.max_size < options.area.min_size)
+    throw UserError("--max-size must be at least --min-size", 2);
   settings.min_area_px = working_area(options.area.min_size);
   settings.max_area_px = working_area(options.area.max_size);
   memory_ = AlignedBlock(Capture::bytes_needed(limits, settings));
@@ -151,6 +153,8 @@ bool Session::step() {
     if (statistics_.frames > 0) statistics_.allocations_after_frame_0 += heap.allocations();
   }
   statistics_.add(report_);
+  for (int i = 0; i < capture_->fish_count(); ++i)
+    statistics_.poses_of_fish[static_cast<std::size_t>(i)] += capture_->pose(i).ok();
   return true;
 }
 

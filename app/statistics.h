@@ -34,6 +34,7 @@ struct Statistics {
   int64_t dropped = 0;                         // gaps in the camera's own count
   std::array<int64_t, kStatuses> by_status{};  // in the order of PoseStatus
   std::array<int64_t, kFlags> by_flag{};
+  std::array<int64_t, kMostFish> poses_of_fish{};  // by number
   std::array<TimeHistogram, kStages> stages;
   TimeHistogram total;
 

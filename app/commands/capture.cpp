@@ -9,6 +9,7 @@
 #include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/film.h"
+#include "app/export/fish_files.h"
 #include "app/export/pose_csv.h"
 #include "app/export/report.h"
 #include "app/progress.h"
@@ -25,7 +26,11 @@ struct Options {
   CaptureOptions capture;
   std::string csv, truth, overlay, json, contact_sheet, take;
   bool repair = true;
+  bool all = false;
+  std::optional<int> max_fish;
 };
+
+constexpr int kFishOfAll = 8;
 
 SimCamera& simulated(Session& session) {
   auto* sim = dynamic_cast<SimCamera*>(&session.camera());
@@ -33,11 +38,66 @@ SimCamera& simulated(Session& session) {
   return *sim;
 }
 
-void add_truth(PoseCsv& truth, Session& session) {
-  const TankTruth& known = *simulated(session).truth();
-  FishPose pose = known.pose;
-  if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
-  truth.add(session.frame_index(), session.frame().timestamp_ns, pose);
+void finish(PoseCsv& csv, bool repair) {
+  csv.close();
+  const int64_t turned = repair ? csv.look_back() : 0;
+  if (turned > 0) std::fprintf(stderr, "head and tail put right in %lld rows\n", static_cast<long long>(turned));
+}
+
+// Poses and truth as CSV: of the target in one file each, or with --all of every fish.
+class Tables {
+ public:
+  Tables(const Options& options, Session& session) {
+    if (!options.truth.empty()) simulated(session);
+    constexpr float kTankScale = 1.0f;  // the tank knows the truth in its own pixels: the source's
+    if (options.all) {
+      if (!options.csv.empty()) all_.emplace("--csv", options.csv, session.scale(), session.capture().fish_count());
+      if (!options.truth.empty()) all_truth_.emplace("--truth", options.truth, kTankScale, kMostFish);
+    } else {
+      if (!options.csv.empty()) one_.emplace(options.csv, session.scale());
+      if (!options.truth.empty()) one_truth_.emplace(options.truth, kTankScale);
+    }
+  }
+
+  void add(Session& session) {
+    const int64_t frame = session.frame_index(), time_ns = session.frame().timestamp_ns;
+    const Capture& capture = session.capture();
+    if (one_) one_->add(frame, time_ns, capture.pose(), capture.order());
+    for (int i = 0; all_ && i < capture.fish_count(); ++i)
+      all_->add(i, frame, time_ns, capture.pose(i), capture.order(i));
+    if (!one_truth_ && !all_truth_) return;
+    const TankTruth& known = *simulated(session).truth();
+    FishPose pose = known.pose;
+    if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
+    if (one_truth_) one_truth_->add(frame, time_ns, pose);
+    if (!all_truth_) return;
+    all_truth_->add(0, frame, time_ns, pose);
+    for (int i = 0; i < static_cast<int>(known.others.size()); ++i)
+      all_truth_->add(i + 1, frame, time_ns, known.others[static_cast<std::size_t>(i)]);
+  }
+
+  void close(bool repair) {
+    if (one_) finish(*one_, repair);
+    if (one_truth_) one_truth_->close();
+    if (all_truth_) all_truth_->close();
+    if (!all_) return;
+    for (PoseCsv* csv : all_->files()) finish(*csv, repair);
+    std::fprintf(stderr, "written: %s\n", all_->written().c_str());
+  }
+
+ private:
+  std::optional<PoseCsv> one_, one_truth_;
+  std::optional<FishFiles> all_, all_truth_;
+};
+
+// Every file that may be written.
+std::vector<std::string> outputs_of(const Options& options) {
+  std::vector<std::string> outputs = {options.overlay, options.json, options.contact_sheet, options.take};
+  for (const std::string& table : {options.csv, options.truth}) {
+    if (!options.all) outputs.push_back(table);
+    for (int i = 1; options.all && !table.empty() && i <= kMostFish; ++i) outputs.push_back(fish_file(table, i));
+  }
+  return outputs;
 }
 
 std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
@@ -49,22 +109,13 @@ void finish(TakeRecorder& take) {
                  static_cast<long long>(take.not_recorded()));
 }
 
-void finish(PoseCsv& csv, bool repair) {
-  csv.close();
-  const int64_t turned = repair ? csv.look_back() : 0;
-  if (turned > 0) std::fprintf(stderr, "head and tail put right in %lld rows\n", static_cast<long long>(turned));
-}
-
 void capture(const Options& options) {
-  check_outputs(inputs_of(options.capture),
-                {options.csv, options.truth, options.overlay, options.json, options.contact_sheet, options.take});
-  Session session(options.capture);
-  std::optional<PoseCsv> csv, truth;
-  if (!options.csv.empty()) csv.emplace(options.csv, session.scale());
-  if (!options.truth.empty()) {
-    simulated(session);
-    truth.emplace(options.truth, 1.0f);  // the tank knows it in its own pixels: the source's
-  }
+  if (options.max_fish && !options.all) throw UserError("--max-fish goes with --all: how many fish get a file", 2);
+  check_outputs(inputs_of(options.capture), outputs_of(options));
+  CaptureOptions watched = options.capture;
+  if (options.all) watched.max_fish = options.max_fish.value_or(kFishOfAll);
+  Session session(watched);
+  Tables tables(options, session);
   std::optional<TakeRecorder> take;
   if (!options.take.empty()) take.emplace(options.take, take_info(session, take_name(options.take)));
   const Pane pane = pane_for(session.info().width, session.info().height);
@@ -74,11 +125,8 @@ void capture(const Options& options) {
   {
     Progress progress(session.info().frame_count);
     while (session.step()) {
-      if (csv)
-        csv->add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(),
-                 session.capture().order());
+      tables.add(session);
       if (take) take->add(take_frame(session));
-      if (truth) add_truth(*truth, session);
       if (film.wanted()) {
         overlay.update(session);
         scene.clear(pane.width, pane.height, {0, 0, 0, 1});
@@ -89,8 +137,7 @@ void capture(const Options& options) {
     }
   }
   expect_frames(session);
-  if (csv) finish(*csv, options.repair);
-  if (truth) truth->close();
+  tables.close(options.repair);
   if (take) finish(*take);
   film.finish();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
@@ -110,6 +157,18 @@ void add_capture(CLI::App& app, Action& action) {
           "at the end put head and tail right in the CSV, seen over the whole recording (default on)")
       ->type_name("on|off")
       ->check(CLI::IsMember({"on", "off"}));
+  command->add_flag(
+      "--all", options->all,
+      "every fish that swims, each with its own table: --csv fish.csv becomes fish-1.csv, fish-2.csv, ...");
+  command
+      ->add_option_function<std::string>(
+          "--max-fish",
+          [options](const std::string& s) {
+            options->max_fish = static_cast<int>(parse_integer("--max-fish", s, 1, kMostFish));
+          },
+          "with --all: how many at a time (default 8)")
+      ->type_name("N")
+      ->option_text("N");
   command->add_option("--take", options->take, "a take: motion and poses of every frame, to play and edit later")
       ->type_name("FILE.take");
   command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")

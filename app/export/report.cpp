@@ -27,6 +27,16 @@ Json flag_counts(const Statistics& statistics) {
   return counts;
 }
 
+// Of every fish that was seen, by number from 1.
+Json fish_json(Session& session) {
+  Json fish = Json::array();
+  for (int i = 0; i < session.capture().fish_count(); ++i) {
+    const int64_t poses = session.statistics().poses_of_fish[static_cast<std::size_t>(i)];
+    if (poses > 0) fish.push_back({{"number", i + 1}, {"frames_with_pose", poses}});
+  }
+  return fish;
+}
+
 Json memory_json(Session& session) {
   return {{"core_bytes", session.core_bytes()},
           {"used_bytes", session.capture().bytes_used()},
@@ -55,6 +65,7 @@ Json report_json(Session& session) {
   json["background"] = {{"name", session.capture().background_name()}, {"why", session.background_why()}};
   json["frames"] = statistics.frames;
   json["frames_with_pose"] = statistics.poses;
+  json["fish"] = fish_json(session);
   json["frames_dropped"] = statistics.dropped;
   json["status"] = status_counts(statistics);
   json["flags"] = flag_counts(statistics);

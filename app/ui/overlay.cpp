@@ -21,35 +21,43 @@ void Overlay::update(Session& session, bool show_blobs) {
   picture_ = session.camera().picture();
   picture_.id = kCameraPicture;
   picture_.revision = static_cast<uint64_t>(session.statistics().frames);
-  has_pose_ = session.report().status == PoseStatus::ok;
-  if (has_pose_) take_pose(session);
+  const Capture& capture = session.capture();
+  fish_.resize(static_cast<std::size_t>(capture.fish_count()));
+  for (int i = 0; i < capture.fish_count(); ++i) take_pose(capture, i, fish_[static_cast<std::size_t>(i)]);
+  for (std::size_t i = numbers_.size(); fish_.size() > 1 && i < fish_.size(); ++i) {
+    numbers_.emplace_back(kFirstNumberPicture + static_cast<uint32_t>(i));
+    numbers_.back().set(std::to_string(i + 1));
+  }
   blob_corners_.clear();
   if (show_blobs) take_blobs(session);
   text_.set("frame " + std::to_string(session.frame_index()) + "  " + to_string(session.report().status));
 }
 
-void Overlay::take_pose(Session& session) {
-  const FishPose& pose = session.capture().pose();
+void Overlay::take_pose(const Capture& capture, int fish, Drawn& drawn) const {
+  const FishPose& pose = capture.pose(fish);
+  drawn.seen = pose.ok();
+  drawn.target = fish == capture.target();
+  if (!drawn.seen) return;
   const auto at = [this](Vec2 p) { return pane_.to_scene(p); };
-  outline_.clear(), midline_.clear(), fins_.clear(), junctions_.clear();
-  for (const Vec2 p : session.capture().contour()) outline_.push_back(at(p));
-  midline_.push_back(at(pose.head));
-  for (int i = pose.u_num - 1; i >= 0; --i) midline_.push_back(at(pose.up_axis[i]));
-  midline_.push_back(at(pose.centre));
-  for (int i = 0; i < pose.l_num; ++i) midline_.push_back(at(pose.low_axis[i]));
-  midline_.push_back(at(pose.tail));
+  drawn.outline.clear(), drawn.midline.clear(), drawn.fins.clear(), drawn.junctions.clear();
+  for (const Vec2 p : capture.contour(fish)) drawn.outline.push_back(at(p));
+  drawn.midline.push_back(at(pose.head));
+  for (int i = pose.u_num - 1; i >= 0; --i) drawn.midline.push_back(at(pose.up_axis[i]));
+  drawn.midline.push_back(at(pose.centre));
+  for (int i = 0; i < pose.l_num; ++i) drawn.midline.push_back(at(pose.low_axis[i]));
+  drawn.midline.push_back(at(pose.tail));
   const auto fin = [&](float confidence, Vec2 tip, Vec2 top, Vec2 bottom) {
     if (confidence <= 0) return;
-    fins_.push_back(at(tip));
-    junctions_.push_back(at(top));
-    junctions_.push_back(at(bottom));
+    drawn.fins.push_back(at(tip));
+    drawn.junctions.push_back(at(top));
+    drawn.junctions.push_back(at(bottom));
   };
   fin(pose.confidence.l_fin, pose.l_fin, pose.jun_tl, pose.jun_bl);
   fin(pose.confidence.r_fin, pose.r_fin, pose.jun_tr, pose.jun_br);
-  head_ = at(pose.head), tail_ = at(pose.tail);
+  drawn.head = at(pose.head), drawn.tail = at(pose.tail);
   const Vec2 from = at(pose.centre), along = pose.dir * (pose.axis_len * 0.35f * pane_.scale);
   const Vec2 tip = from + along, wing = right_of(along) * 0.15f;
-  arrow_ = {from, tip, tip - along * 0.25f + wing, tip, tip - along * 0.25f - wing};
+  drawn.arrow = {from, tip, tip - along * 0.25f + wing, tip, tip - along * 0.25f - wing};
 }
 
 void Overlay::take_blobs(Session& session) {
@@ -61,19 +69,24 @@ void Overlay::take_blobs(Session& session) {
   }
 }
 
+void Overlay::draw_fish(const Drawn& fish, const Text* number, Scene& scene) const {
+  scene.lines(fish.outline, fish.target ? kWhite : kGrey, kLine, true);
+  scene.lines(fish.midline, kCyan, kLine);
+  scene.lines(fish.arrow, kOrange, kLine);
+  scene.points(fish.junctions, kYellow, kPoint * 0.7f);
+  scene.points(fish.fins, kGreen, kPoint);
+  scene.points({&fish.tail, 1}, kBlue, kPoint);
+  scene.points({&fish.head, 1}, kRed, kPoint);
+  if (number != nullptr) number->draw(scene, fish.head + Vec2{8, 8});
+}
+
 void Overlay::draw(Scene& scene) const {
   scene.image(picture_, pane_.corner, {static_cast<float>(pane_.width), static_cast<float>(pane_.height)});
   for (std::size_t i = 0; i < blob_corners_.size(); i += 4) {
     scene.lines({blob_corners_.data() + i, 4}, kGrey, 1, true);
   }
-  if (has_pose_) {
-    scene.lines(outline_, kWhite, kLine, true);
-    scene.lines(midline_, kCyan, kLine);
-    scene.lines(arrow_, kOrange, kLine);
-    scene.points(junctions_, kYellow, kPoint * 0.7f);
-    scene.points(fins_, kGreen, kPoint);
-    scene.points({&tail_, 1}, kBlue, kPoint);
-    scene.points({&head_, 1}, kRed, kPoint);
+  for (std::size_t i = 0; i < fish_.size(); ++i) {
+    if (fish_[i].seen) draw_fish(fish_[i], i < numbers_.size() ? &numbers_[i] : nullptr, scene);
   }
   text_.draw(scene, pane_.corner + Vec2{8, 6});
 }

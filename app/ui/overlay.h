@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What capture sees, drawn over the camera's picture: outline (white), midline (cyan), head (red), tail (blue), fin tips
-// (green), junctions (yellow), direction (arrow), other blobs (grey boxes), and a line with frame number and status.
+// (green), junctions (yellow), direction (arrow), other blobs (grey boxes), and a line with frame number and status. Of several fish each has its number;
+// the outline of the target is white, that of the others grey.
 //
 // update() takes a copy of the last step's pose; draw() may then be called any number of times, with the same picture.
 #pragma once
@@ -20,15 +21,21 @@ class Overlay {
   void draw(Scene& scene) const;
 
  private:
-  void take_pose(Session& session);
+  // One fish.
+  struct Drawn {
+    std::vector<Vec2> outline, midline, fins, junctions, arrow;
+    Vec2 head, tail;
+    bool seen = false, target = false;
+  };
+  void take_pose(const Capture& capture, int fish, Drawn& drawn) const;
+  void draw_fish(const Drawn& drawn, const Text* number, Scene& scene) const;
   void take_blobs(Session& session);
 
   Pane pane_;
   Picture picture_;
-  std::vector<Vec2> outline_, midline_, fins_, junctions_, arrow_;
+  std::vector<Drawn> fish_;
+  std::vector<Text> numbers_;       // one a fish, where there are several
   std::vector<Vec2> blob_corners_;  // four a blob
-  Vec2 head_, tail_;
-  bool has_pose_ = false;
   Text text_;
 };
 

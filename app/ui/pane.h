@@ -38,6 +38,11 @@ inline Pane beside(Pane left) {
 }
 
 // Texture slots of the pictures that the app itself shows.
-enum PictureId : uint32_t { kCameraPicture = 1, kCharacterPicture = 2, kFirstTextPicture = 16 };
+enum PictureId : uint32_t {
+  kCameraPicture = 1,
+  kCharacterPicture = 2,
+  kFirstTextPicture = 16,
+  kFirstNumberPicture = 32
+};
 
 }  // namespace nt

@@ -9,8 +9,9 @@
 
 namespace {
 
-int64_t allocations_after_frame_0(const nt::TankSettings& settings, int frames, int& poses) {
-  nt::test::TankRun run(settings);
+int64_t allocations_after_frame_0(const nt::TankSettings& settings, int frames, int& poses,
+                                  const nt::CaptureSettings& capture = {}) {
+  nt::test::TankRun run(settings, nt::test::limits_for(settings), capture);
   run.film();
   run.step();
   int64_t sum = 0;
@@ -44,4 +45,12 @@ TEST(Alloc, NoneAtTheDefaultSize) {
   int poses = 0;
   EXPECT_EQ(allocations_after_frame_0({}, 10000, poses), 0);
   EXPECT_GT(poses, 250);
+}
+
+TEST(Alloc, NoneWithSeveralFish) {
+  int poses = 0;
+  nt::CaptureSettings eight;
+  eight.max_fish = 8;
+  EXPECT_EQ(allocations_after_frame_0({.scene = "crossing", .width = 480, .height = 272}, 1500, poses, eight), 0);
+  EXPECT_GT(poses, 800);
 }

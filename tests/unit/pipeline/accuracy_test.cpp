@@ -39,4 +39,27 @@ TEST_P(AccuracyTest, KeepsItsPromise) {
 INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest, testing::Values("calm", "turns", "hover", "forked", "round"),
                          [](const auto& test) { return std::string(test.param); });
 
+// Scenes that try the tracking: what is pinned is who is followed and for how long nobody is.
+class TrackingAccuracyTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(TrackingAccuracyTest, KeepsItsFish) {
+  Accuracy sum;
+  for (const uint64_t seed : {1, 2, 3}) {
+    nt::test::AccuracyRun run;
+    run.tank.scene = GetParam();
+    run.tank.seed = seed;
+    run.frames = 800;  // by then each has crossed, or left and come back
+    sum.add(nt::test::measure_accuracy(run));
+  }
+  ASSERT_GT(sum.visible, 1000);
+  EXPECT_GE(sum.pose_share(), 0.995);
+  EXPECT_EQ(sum.wrong_end, 0);
+  EXPECT_EQ(sum.false_poses, 0);
+  EXPECT_EQ(sum.wrong_fish, 0);
+  EXPECT_LE(sum.longest_wait, 15) << "half a second";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TrackingAccuracyTest, testing::Values("leave", "dirt", "crossing"),
+                         [](const auto& test) { return std::string(test.param); });
+
 }  // namespace

@@ -224,5 +224,101 @@ TEST(Pipeline, TheFingerprintFollowsTheIntegerStagesOnly) {
   EXPECT_NE(a->integer_hash(), b->integer_hash());
 }
 
+// Two fish that swim side by side, the upper one a little larger.
+Picture two_fish(int n) {
+  const float x = 60 + 3.0f * static_cast<float>(n);
+  Picture picture = empty();
+  draw_fish(picture, x, 130);
+  return picture.ellipse(x + 8, 50, 28, 12, 60).ellipse(x - 26, 50, 28, 5, 60);
+}
+
+TEST(Pipeline, SeveralFishHaveTheirOwnPosesAndNumbers) {
+  CaptureSettings settings = still();
+  settings.max_fish = 4;
+  Filmed film(settings);
+  film.learn(empty());
+  EXPECT_EQ(film->fish_count(), 4);
+  for (int n = 0; n < 50; ++n) (void)film.see(two_fish(n));
+  EXPECT_EQ(film->target(), 0) << "the first that was chosen";
+  ASSERT_TRUE(film->pose(0).ok());
+  ASSERT_TRUE(film->pose(1).ok());
+  EXPECT_FALSE(film->pose(2).ok());
+  EXPECT_NEAR(film->pose(0).centre.y, 50, 3);
+  EXPECT_NEAR(film->pose(1).centre.y, 130, 3);
+  EXPECT_GT(film->init_len(0), film->init_len(1));
+  EXPECT_FALSE(film->contour(1).empty());
+  EXPECT_NE(film->contour(0).data(), film->contour(1).data());
+  EXPECT_GT(film->motion(1).dir_rad, -0.2f);
+  film->select_next();
+  (void)film.see(two_fish(50));
+  EXPECT_EQ(film->target(), 1) << "the other one is the target, the numbers stay";
+  EXPECT_NEAR(film->pose().centre.y, 130, 3);
+  EXPECT_NEAR(film->pose(0).centre.y, 50, 3);
+}
+
+TEST(Pipeline, OneThatComesBackIsKnownByItsLooks) {
+  CaptureSettings settings = still();
+  settings.max_fish = 3, settings.lost_after = 5;
+  Filmed film(settings);
+  film.learn(empty());
+  for (int n = 0; n < 40; ++n) (void)film.see(two_fish(n));
+  ASSERT_TRUE(film->pose(1).ok());
+  for (int n = 0; n < 20; ++n) (void)film.see(empty());
+  // Only the smaller one is back, elsewhere; then the larger one.
+  for (int n = 0; n < 30; ++n) (void)film.see(fish_at(80 + 3.0f * static_cast<float>(n), 40));
+  EXPECT_TRUE(film->pose(1).ok());
+  EXPECT_FALSE(film->pose(0).ok());
+  EXPECT_FALSE(film->pose(2).ok());
+}
+
+TEST(Pipeline, NothingOutsideTheTankIsAFishAndWhatLeavesItIsPartial) {
+  Picture tank(kWidth, kHeight, 0);
+  tank.paint({0, 0, kWidth, 100}, 255);
+  CaptureSettings settings = still();
+  settings.tank = tank.luma();
+  Filmed film(settings);
+  film.learn(empty());
+  EXPECT_EQ(film.see(fish_at(100, 150)).status, PoseStatus::absent);
+  for (int n = 0; n < 5; ++n)
+    EXPECT_EQ(film.see(fish_at(100, 50 + 4.0f * static_cast<float>(n))).status, PoseStatus::ok);
+  EXPECT_EQ(film.see(fish_at(100, 96)).status, PoseStatus::partial);
+}
+
+TEST(Pipeline, WhatIsTooLargeOrTooSmallIsNoFish) {
+  const auto status_with = [](int least, int most) {
+    CaptureSettings settings = still();
+    settings.min_area_px = least, settings.max_area_px = most;
+    Filmed film(settings);
+    film.learn(empty());
+    return film.see(fish_at(100, 90)).status;
+  };
+  EXPECT_EQ(status_with(0, 0), PoseStatus::ok);
+  EXPECT_EQ(status_with(500, 2000), PoseStatus::ok);
+  EXPECT_EQ(status_with(2000, 0), PoseStatus::absent);
+  EXPECT_EQ(status_with(0, 500), PoseStatus::absent);
+}
+
+TEST(Pipeline, MoreFishTakeMoreMemoryAndBadNumbersAreRefused) {
+  const Limits limits = Filmed::limits(kWidth, kHeight);
+  CaptureSettings settings = still();
+  const std::size_t one = Capture::bytes_needed(limits, settings);
+  settings.max_fish = 8;
+  const std::size_t eight = Capture::bytes_needed(limits, settings);
+  EXPECT_GT(eight, one);
+  EXPECT_LT(eight - one, std::size_t{8} * 100'000);
+  const test::Block block(eight);
+  EXPECT_TRUE(Capture::create(block.span(), limits, settings, kWidth, kHeight).ok());
+  EXPECT_EQ(Capture::create(block.span().first(eight - 1), limits, settings, kWidth, kHeight).status().code,
+            StatusCode::out_of_memory);
+  for (const int count : {0, -1, kMostFish + 1}) {
+    settings.max_fish = count;
+    EXPECT_EQ(Capture::create(block.span(), limits, settings, kWidth, kHeight).status().code, StatusCode::bad_argument);
+  }
+  settings.max_fish = 1;
+  Picture small(10, 10);
+  settings.tank = small.luma();
+  EXPECT_EQ(Capture::create(block.span(), limits, settings, kWidth, kHeight).status().code, StatusCode::bad_argument);
+}
+
 }  // namespace
 }  // namespace nt

@@ -36,8 +36,7 @@ struct CaptureImpl final : Capture {
   Blobs* blobs = nullptr;
   Refine* refine = nullptr;
   Landmarks* landmarks = nullptr;
-  BitMask raw, open;
-  std::array<BitMask, 3> scratch;
+  BitMask raw, open, scratch;
   std::span<BlobView> views;
   Swimmers swimmers;
   Target target;
@@ -49,7 +48,7 @@ struct CaptureImpl final : Capture {
 
   int view_count = 0;
   int flood_frames = 0;
-  uint64_t hash = kHashSeed;
+  uint64_t raw_hash = kHashSeed, hash = kHashSeed;
 
   bool layout(Arena& arena, int w, int h);
   StepReport run(const Frame& frame, NowNs now);
@@ -82,7 +81,7 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   if (!model.ok()) return false;
   background = model.value();
   raw = take_mask(arena, w, h);
-  for (BitMask& m : scratch) m = take_mask(arena, w, h);
+  scratch = take_mask(arena, w, h);
   open = take_mask(arena, w, h);
   blobs = Blobs::create(arena, limits);
   refine = Refine::create(arena, limits);
@@ -117,6 +116,10 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   if (!tank.empty())
     for (int i = 0; i < raw.words_per_row * height; ++i) raw.words[i] &= tank.words[i];
   report.foreground_share = static_cast<float>(count_bits(raw)) / static_cast<float>(tank_pixels);
+  if (settings.fingerprint) {
+    raw_hash = kHashSeed;
+    for (int i = 0; i < raw.words_per_row * height; ++i) raw_hash = hash_u64(raw.words[i], raw_hash);
+  }
   flood_frames = report.foreground_share > kFloodShare ? flood_frames + 1 : 0;
   if (flood_frames >= kFloodFrames) {
     background->restart();
@@ -127,7 +130,7 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   }
   if (!means_something) return false;
 
-  open_mask(raw, scratch[0], open, settings.open_size);
+  open_mask(raw, scratch, open, settings.open_size);
   clock.lap(Stage::clean);
   const int min_area = settings.min_area_px > 0 ? settings.min_area_px : max_int(width * height / 4000, 9);
   blobs->find(open, min_area);
@@ -218,8 +221,7 @@ void CaptureImpl::publish_blobs() {
 }
 
 void CaptureImpl::take_fingerprint() {
-  hash = kHashSeed;
-  for (int i = 0; i < raw.words_per_row * height; ++i) hash = hash_u64(raw.words[i], hash);
+  hash = raw_hash;
   for (const Blob& b : blobs->blobs()) {
     hash = hash_u64(static_cast<uint64_t>(b.area_px), hash);
     hash = hash_u64(static_cast<uint64_t>(b.box.x0) << 32 | static_cast<uint64_t>(b.box.y0), hash);
@@ -251,8 +253,9 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
   number_fish();
   publish_blobs();
   clock.lap(Stage::target);
-  const CaptureTools tools{frame,   settings, *background, *blobs, swimmers, tank.empty() ? nullptr : &tank,
-                           scratch, *refine,  *landmarks,  clock,  report};
+  const std::array<BitMask, 3> spare{scratch, open, raw};  // the blobs hold what is still needed of them
+  const CaptureTools tools{frame, settings, *background, *blobs, swimmers, tank.empty() ? nullptr : &tank,
+                           spare, *refine,  *landmarks,  clock,  report};
   for (FishTrack& one : fish) one.follow(tools);
   return finish(report, the_fish(kTarget).pose.status);
 }

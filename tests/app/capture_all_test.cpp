@@ -75,7 +75,7 @@ TEST(CaptureAll, EachFishHasItsTableAndKeepsIt) {
 TEST(CaptureAll, FilesAreNumberedBeforeTheirEnding) {
   EXPECT_EQ(fish_file("fish.csv", 2), "fish-2.csv");
   EXPECT_EQ(fish_file("out/my.fish.csv", 11), "out/my.fish-11.csv");
-  EXPECT_EQ(fish_file("/tmp/x", 1), "/tmp/x-1");
+  EXPECT_EQ(fish_file("out/x", 1), "out/x-1");
 }
 
 TEST(CaptureAll, AFileStartsWithItsFish) {

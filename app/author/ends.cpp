@@ -21,6 +21,7 @@ constexpr double kEyeNear = 0.18,
                  kEyeReach = 0.4;   // of the figure's length: farther from an end eyes say nothing of it
 constexpr double kFaceFound = 0.6;  // nearness of the eyes to an end from which that end is the face
 constexpr double kOnLine = 0.05;    // of the length: as near to the mirror line lies an end that is on it
+constexpr double kAlongLine = 0.1;  // of the length: as far the way between two ends may leave it
 constexpr double kTwinLength = 0.15, kTwinApart = 0.42;  // of the length: the corners of one tail fin
 constexpr double kClearLead = 0.35;                      // of score over the next pair: no doubt
 
@@ -86,6 +87,7 @@ class Judge {
   void add_face();
   std::vector<Pair> pairs() const;
   void score(Pair& pair, double heaviest) const;
+  void penalise_twins(std::vector<Pair>& all, double heaviest) const;
   double head_log_odds(const Path& path, bool& tail_fin) const;
   std::optional<Vec2> twin_of(const Path& path, const std::vector<Pair>& all) const;
   std::optional<Vec2> told_end(const ToldHead& told) const;
@@ -156,16 +158,13 @@ void Judge::score(Pair& pair, double heaviest) const {
   const double len = pair.path.length;
   pair.score = pair.path.weight / heaviest;
   const bool near_line = std::max(distance_to_mirror(a), distance_to_mirror(b)) < kOnLine * len;
-  if (mirror_.likeness > kSymmetric && near_line) {
+  double strays = 0;
+  for (const Vec2 p : pair.path.points) strays = std::max(strays, distance_to_mirror(p));
+  if (mirror_.likeness > kSymmetric && near_line && strays < kAlongLine * len) {
     pair.on_mirror = true;
     // Every oval is symmetric about its short axis too.
     pair.score += kMirrorBonus * eyes_mirrored_ * std::min(1.0, pair.score / kLongEnough) *
                   std::min(1.0, (mirror_.likeness - kSymmetric) / (kFullySymmetric - kSymmetric));
-  }
-  const Vec2 off = a - mirror_.point;
-  const Vec2 image = mirror_.point + mirror_.direction * (2 * dot(off, mirror_.direction)) - off;
-  if (mirror_.likeness > kSymmetric && static_cast<double>(length(image - b)) < 3 * kOnLine * len) {
-    pair.score -= kTwinPenalty * mirror_.likeness;  // one claw to the other
   }
   std::array<double, 33> widths = widths_along(depth_, pair.path);
   double fin = caudal(widths);
@@ -173,6 +172,19 @@ void Judge::score(Pair& pair, double heaviest) const {
   fin = std::max(fin, caudal(widths));
   pair.score += kTailBonus * fin;
   pair.score += kEyeBonus * std::max(eye_nearness(a, len), eye_nearness(b, len));
+}
+
+// Where a figure has a body along its mirror line, the way from one claw to the other is none. A bow, symmetric across its
+// bend, has no such body.
+void Judge::penalise_twins(std::vector<Pair>& all, double heaviest) const {
+  const auto spine = [&](const Pair& p) { return p.on_mirror && p.path.weight > kLongEnough * heaviest; };
+  if (std::none_of(all.begin(), all.end(), spine)) return;
+  for (Pair& p : all) {
+    const Vec2 off = p.path.points.front() - mirror_.point;
+    const Vec2 image = mirror_.point + mirror_.direction * (2 * dot(off, mirror_.direction)) - off;
+    const auto apart = static_cast<double>(length(image - p.path.points.back()));
+    if (apart < 3 * kOnLine * p.path.length) p.score -= kTwinPenalty * mirror_.likeness;
+  }
 }
 
 // Log odds that the path's front is the head.
@@ -223,6 +235,7 @@ FigureEnds Judge::judge(const std::optional<ToldHead>& told) {
   double heaviest = 1e-6;
   for (const Pair& p : all) heaviest = std::max(heaviest, p.path.weight);
   for (Pair& p : all) score(p, heaviest);
+  penalise_twins(all, heaviest);
   std::sort(all.begin(), all.end(), [](const Pair& a, const Pair& b) { return a.score > b.score; });
   const Pair& best = all.front();
   double next = 0;  // the best pair that shares neither the place of its head nor of its tail
@@ -246,7 +259,7 @@ FigureEnds Judge::judge(const std::optional<ToldHead>& told) {
   if (turn) std::reverse(ends.path.points.begin(), ends.path.points.end());
   if (head) ends.has_tail_fin = caudal(widths_along(depth_, ends.path)) > 0.25;
   if (!ends.on_mirror) ends.tail_twin = twin_of(ends.path, all);
-  ends.head_confidence = 1 / (1 + std::exp(-std::abs(odds)));
+  ends.head_confidence = std::tanh(0.5 * std::abs(odds));  // 2 p - 1: 0 where nothing tells
   return ends;
 }
 

@@ -41,8 +41,10 @@ void smooth_inside(const cv::Mat& mask, Axis& axis) {
     for (std::size_t j = 1; j + 1 < axis.points.size(); ++j) {
       const Vec2 wanted = axis.points[j] * 0.5f + (axis.points[j - 1] + axis.points[j + 1]) * 0.25f;
       const bool end = j < 3 || j + 4 > axis.points.size();
-      if (end ||
-          (segment_inside(mask, axis.points[j - 1], wanted) && segment_inside(mask, wanted, axis.points[j + 1]))) {
+      // The ends lie on the outline, where pixels round either way.
+      const bool clear =
+          segment_inside(mask, axis.points[j - 1], wanted) && segment_inside(mask, wanted, axis.points[j + 1]);
+      if (end ? in_mask(mask, wanted) : clear) {
         axis.points[j] = wanted;
       }
     }

@@ -54,7 +54,8 @@ void reduce(const std::string& path, SourceMesh& mesh, std::size_t most_vertices
   if (fits(mesh.triangles, mesh.positions.size(), most_vertices)) return;
   std::vector<uint32_t> out(mesh.triangles.size());
   bool done = false;
-  std::size_t target = std::min<std::size_t>(2 * most_vertices, static_cast<std::size_t>(Limits{}.max_triangles)) * 3;
+  const std::size_t target = std::min(
+      mesh.triangles.size(), std::min(2 * most_vertices, static_cast<std::size_t>(Limits{}.max_triangles)) * 3);
   for (const bool sloppy : {false, true}) {
     for (std::size_t wanted = target; !done && wanted > 600; wanted = wanted * 4 / 5 / 3 * 3) {
       out.resize(mesh.triangles.size());
@@ -78,6 +79,20 @@ void reduce(const std::string& path, SourceMesh& mesh, std::size_t most_vertices
   compact(mesh);
   mesh.notes.push_back("reduced from " + std::to_string(before) + " triangles to " +
                        std::to_string(mesh.triangles.size() / 3));
+}
+
+// The lowest first, so that a renderer without a depth buffer paints the top last.
+void sort_by_height(SourceMesh& mesh) {
+  std::vector<std::array<uint32_t, 3>> order;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    order.push_back({mesh.triangles[t], mesh.triangles[t + 1], mesh.triangles[t + 2]});
+  }
+  const auto height = [&](const std::array<uint32_t, 3>& t) {
+    return mesh.positions[t[0]].z + mesh.positions[t[1]].z + mesh.positions[t[2]].z;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return height(a) < height(b); });
+  mesh.triangles.clear();
+  for (const auto& t : order) mesh.triangles.insert(mesh.triangles.end(), t.begin(), t.end());
 }
 
 // Smooth across texture seams: vertices at one place share a normal.
@@ -175,6 +190,7 @@ AuthoredCharacter author_mesh(const std::string& path, const MeshOptions& option
   SourceMesh mesh = read_mesh(path, options.told);
   const std::size_t limit = static_cast<std::size_t>(Limits{}.max_vertices);
   reduce(path, mesh, options.vertices > 0 ? std::min(limit, static_cast<std::size_t>(options.vertices)) : limit);
+  sort_by_height(mesh);
   const TopView view = top_view(path, mesh);
   const Silhouette seen = silhouette(path, mesh, view);
   std::optional<ToldHead> told;

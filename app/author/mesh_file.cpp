@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -82,11 +83,25 @@ class Reader {
   std::size_t seen_ = 0;
 };
 
+// A PLY header that promises more elements than the file has bytes: Assimp would set aside room for them all.
+void check_ply(const std::string& path, uintmax_t size) {
+  std::ifstream in(path, std::ios::binary);
+  std::string word;
+  for (int words = 0; words < 400 && in >> word && word != "end_header"; ++words) {
+    if (word != "element") continue;
+    double count = 0;
+    if (in >> word >> count && count > static_cast<double>(size)) {
+      throw UserError(path + ": its header promises more than the file holds; it is cut short or damaged");
+    }
+  }
+}
+
 const aiScene* Reader::import() {
   std::error_code error;
   const uintmax_t size = std::filesystem::file_size(path_, error);
   if (error) throw UserError("cannot read the mesh " + path_ + ": no such file, or no right to read it");
   if (size > kMostBytes) throw UserError(path_ + ": more than 256 MB; reduce the mesh first");
+  if (lower(path_).ends_with(".ply")) check_ply(path_, size);
   importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = nullptr;
   try {

@@ -86,6 +86,30 @@ void sample(const Axis& axis, Vec2 barycentre, const LandmarkSettings& settings,
   pose.dir = normalised(pose.head - pose.tail);
 }
 
+// The nearest point of the figure: samples lie between stations, and a curl is narrower than they are apart.
+Vec2 pulled_in(const cv::Mat& mask, Vec2 p) {
+  const int x0 = static_cast<int>(std::lround(p.x)), y0 = static_cast<int>(std::lround(p.y));
+  double nearest = 1e30;
+  Vec2 best = p;
+  for (int reach = 0; reach < std::max(mask.cols, mask.rows) && nearest > 1e29; ++reach) {
+    for (int y = std::max(0, y0 - reach); y <= std::min(mask.rows - 1, y0 + reach); ++y) {
+      for (int x = std::max(0, x0 - reach); x <= std::min(mask.cols - 1, x0 + reach); ++x) {
+        const double d = std::hypot(x - static_cast<double>(p.x), y - static_cast<double>(p.y));
+        if (mask.at<uchar>(y, x) != 0 && d < nearest)
+          nearest = d, best = {static_cast<float>(x), static_cast<float>(y)};
+      }
+    }
+    if (reach == 0 && nearest < 1e29) return p;
+  }
+  return best;
+}
+
+void keep_inside(const cv::Mat& mask, FishPose& pose) {
+  for (Vec2* p : {&pose.centre, &pose.head, &pose.tail}) *p = pulled_in(mask, *p);
+  for (int i = 0; i < pose.u_num; ++i) pose.up_axis[i] = pulled_in(mask, pose.up_axis[i]);
+  for (int i = 0; i < pose.l_num; ++i) pose.low_axis[i] = pulled_in(mask, pose.low_axis[i]);
+}
+
 void copy_fins(const FishPose& pose, Proposal& out) {
   out.fins[kLeftFin] = {pose.confidence.l_fin > 0, pose.jun_tl, pose.jun_bl, pose.l_fin};
   out.fins[kRightFin] = {pose.confidence.r_fin > 0, pose.jun_tr, pose.jun_br, pose.r_fin};
@@ -171,12 +195,12 @@ Proposal propose_landmarks(const std::string& name, const cv::Mat& mask, const c
     const InnerAxis inner = inner_axis(mask, clockwise, ends.path, ends.tail_twin);
     axis = inner.axis, body = inner.body;
     sample(axis, moments.centroid, settings, out.pose);
+    keep_inside(mask, out.pose);
   }
-  Appendages parts{};
-  if (!out.fins[kLeftFin].present && !out.fins[kRightFin].present) {
-    parts = find_appendages(mask, clockwise, axis, body);
-    take_appendages(parts, out);
-  }
+  const Appendages parts = find_appendages(mask, clockwise, axis, body);
+  // The capture's fins are a fish's: one pair.
+  const bool none = !out.fins[kLeftFin].present && !out.fins[kRightFin].present;
+  if (none || parts[kSecondLeftFin].points.present) take_appendages(parts, out);
   out.has_tail_fin = ends.has_tail_fin;
   const bool known = !ends.path.points.empty();
   const double sure = known ? ends.head_confidence * (0.25 + 0.75 * ends.ends_confidence)

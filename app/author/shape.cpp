@@ -122,7 +122,9 @@ void Shape::collect_tips(const std::vector<cv::Point>& border, cv::Point from, s
   }
   const int reach = std::max(3, static_cast<int>(kTipReach * static_cast<double>(border.size())));
   for (int i = 0; i < static_cast<int>(border.size()); ++i) {
-    if (is_peak(values, i, reach, kTipRise * static_cast<double>(farthest))) {
+    // The farthest point of all is an end, however blunt.
+    const bool last = values[static_cast<std::size_t>(i)] == farthest;
+    if (last || is_peak(values, i, reach, kTipRise * static_cast<double>(farthest))) {
       out.push_back({border[static_cast<std::size_t>(i)], values[static_cast<std::size_t>(i)]});
     }
   }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every drawing and every mesh of the shared data, and the bundled characters: from file to animated video without a hand on it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/videoio.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tests/app/run_binary.h"
+#include "tests/support/temp_dir.h"
+
+namespace nt {
+namespace {
+
+constexpr int kFrames = 8;
+const std::string kSim = "sim:scene=turns,seed=2,size=480x272,frames=" + std::to_string(kFrames);
+
+// Makes the character and the film; prints which points had low confidence.
+void swim(const std::string& name, const std::string& file, const std::string& options) {
+  SCOPED_TRACE(name);
+  const TempDir dir;
+  const std::string character = dir / "c.ntchar", film = dir / "c.mp4";
+  const Outcome made = neontetra("character " + file + " " + options + " --out " + character);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  std::istringstream lines(made.out);
+  std::string line;
+  std::getline(lines, line);  // counts
+  while (std::getline(lines, line)) std::printf("%s: %s\n", name.c_str(), line.c_str());
+  const Outcome swum = neontetra("animate --camera " + kSim + " --background vibe --inbetweens 0 --character " +
+                                 character + " --out " + film);
+  ASSERT_EQ(swum.exit_code, 0) << swum.err;
+  cv::VideoCapture video(film);
+  cv::Mat frame;
+  int frames = 0;
+  while (video.read(frame)) ++frames;
+  EXPECT_EQ(frames, kFrames);
+}
+
+std::vector<std::filesystem::path> files_below(const std::string& folder, const std::vector<std::string>& endings) {
+  std::vector<std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string ending = entry.path().extension().string();
+    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST(AnyCharacter, TheBundledOnesSwim) {
+  std::ifstream table(std::string(NEONTETRA_ASSETS) + "/characters/characters.txt");
+  std::string line;
+  int count = 0;
+  while (std::getline(table, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    std::string name, file, options;
+    words >> name >> file;
+    std::getline(words, options);
+    swim(name, std::string(NEONTETRA_ASSETS) + "/characters/" + file, options);
+    ++count;
+  }
+  EXPECT_EQ(count, 6);
+}
+
+TEST(AnyCharacter, EverySharedDrawingSwims) {
+  const std::string folder = std::string(NEONTETRA_SHARED_DATA) + "/drawings";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data";
+  int count = 0;
+  for (const auto& path : files_below(folder, {".png"})) {
+    if (path.stem().string().find("mask") != std::string::npos) continue;
+    swim(path.stem().string(), path.string(), "");
+    ++count;
+  }
+  EXPECT_EQ(count, 19);
+}
+
+TEST(AnyCharacter, EverySharedMeshSwims) {
+  const std::string folder = std::string(NEONTETRA_SHARED_DATA) + "/meshes";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data";
+  int count = 0;
+  for (const auto& path : files_below(folder, {".obj", ".glb"})) {
+    const std::string name = path.stem() == "mesh" ? path.parent_path().stem().string() : path.stem().string();
+    swim(name, path.string(), "");
+    ++count;
+  }
+  EXPECT_EQ(count, 12);
+}
+
+}  // namespace
+}  // namespace nt

@@ -38,7 +38,7 @@ struct Summary {
   float largest_step = 0.0f;  // of a mesh vertex between two frames, over the diagonal
   int64_t largest_step_frame = 0;
   float worst_rrms = 0.0f, worst_bone = 0.0f, worst_volume = 0.0f;
-  double rrms = 0.0, marker_error = 0.0, solve_us = 0.0, bone_error = 0.0;
+  double rrms = 0.0, marker_error = 0.0, solve_us = 0.0, bone_error = 0.0, volume = 0.0;
   int worst_inverted = 0;
   int64_t frames_with_inverted = 0;
 };
@@ -135,6 +135,7 @@ class Player {
     sum_.worst_inverted = std::max(sum_.worst_inverted, q.inverted);
     sum_.frames_with_inverted += q.inverted > 0;
     const double change = std::abs(puppet_->volume() / volume_ - 1.0);
+    sum_.volume += change;
     sum_.worst_volume = std::max(sum_.worst_volume, static_cast<float>(change));
     sum_.marker_error += static_cast<double>(puppet_->marker_error() / diagonal_);
   }
@@ -198,6 +199,7 @@ Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
   json["largest_step_frame"] = s.largest_step_frame;
   json["rrms_mean"] = s.rrms / n;
   json["rrms_worst"] = s.worst_rrms;
+  json["volume_error_mean"] = s.volume / n;
   json["volume_error_worst"] = s.worst_volume;
   json["bone_error_sum_mean"] = s.bone_error / n;
   json["bone_error_worst"] = s.worst_bone;

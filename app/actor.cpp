@@ -36,7 +36,8 @@ LoadedCharacter load_character(const std::string& path) {
 }
 
 Actor::Actor(const std::string& path) : character_(load_character(path)) {
-  const RetargetSettings settings;
+  RetargetSettings settings;
+  settings.mls = character_.character().deformer;
   Arena measuring;
   (void)Retarget::create(measuring, character_.character(), settings);
   memory_ = AlignedBlock(measuring.used());

@@ -8,6 +8,7 @@ Character character_of(const Proposal& proposal, const CharacterFrame& local, co
   Character character;
   character.u_num = settings.u_num, character.l_num = settings.l_num, character.harmonics = settings.harmonics;
   character.has_tail_fin = proposal.has_tail_fin;
+  character.figure = {pose.centre, pose.dir, false};
   character.confidences = proposal.confidences;
   ControlPoints& c = character.rest;
   c.centre = local(pose.centre), c.head = local(pose.head), c.tail = local(pose.tail);

@@ -36,6 +36,7 @@ std::vector<float> confidence_section(const Character& character, std::size_t co
 uint32_t flags_of(const Character& character) {
   uint32_t flags = character.has_tail_fin ? kCharacterTailFin : 0u;
   if (character.solid()) flags |= kCharacterSolid;
+  if (character.figure.mirror) flags |= kCharacterMirror;
   for (int i = 0; i < kMaxFins; ++i) flags |= character.rest.fins[i].present ? 1u << i : 0u;
   return flags;
 }
@@ -59,6 +60,10 @@ std::vector<std::byte> character_bytes(const Character& character) {
   h.l_num = static_cast<uint32_t>(character.l_num);
   h.harmonics = static_cast<uint32_t>(character.harmonics);
   h.flags = flags_of(character);
+  const FigureFrame& figure = character.figure;
+  h.figure_centre[0] = figure.centre.x, h.figure_centre[1] = figure.centre.y;
+  h.figure_dir[0] = figure.dir.x, h.figure_dir[1] = figure.dir.y;
+  h.deformer = static_cast<uint32_t>(character.deformer);
   h.vertex_count = static_cast<uint32_t>(character.vertices.size());
   h.triangle_count = static_cast<uint32_t>(character.triangles.size() / 3);
   h.texture_width = static_cast<uint32_t>(character.texture.width);

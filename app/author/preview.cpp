@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "app/author/figure_frame.h"
+
 namespace nt {
 namespace {
 
@@ -38,12 +40,11 @@ cv::Mat drawing(const Character& character) {
 }
 
 // The lowest triangles first, each in one tone: its texture's at the middle, by how much it faces the light.
-cv::Mat top_view(const Character& c, const FishPose& pose) {
-  const Vec2 right = right_of(pose.dir);
+cv::Mat top_view(const Character& c) {
   std::vector<Vec2> at;
   Vec2 most;
   for (const Vec2 v : c.vertices) {
-    at.push_back(pose.centre + right * v.x + pose.dir * v.y);
+    at.push_back(to_figure(c.figure, v));
     most = {std::max(most.x, at.back().x), std::max(most.y, at.back().y)};
   }
   constexpr float kMargin = 9;
@@ -75,28 +76,27 @@ cv::Mat top_view(const Character& c, const FishPose& pose) {
   return picture;
 }
 
-void draw_points(cv::Mat& picture, const Proposal& proposal) {
-  const FishPose& pose = proposal.pose;
+void draw_points(cv::Mat& picture, const Character& c) {
   const int radius = std::max(3, std::max(picture.cols, picture.rows) / 150);
   const auto point = [&](Vec2 at, cv::Scalar rgb) {
-    cv::circle(picture, pixel(at), radius, rgb, cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, pixel(to_figure(c.figure, at)), radius, rgb, cv::FILLED, cv::LINE_AA);
   };
   const cv::Scalar cyan(40, 220, 255), yellow(255, 215, 20), green(20, 210, 60);
-  point(pose.centre, {255, 255, 255});
-  for (int i = 0; i < pose.u_num; ++i) point(pose.up_axis[i], cyan);
-  for (int i = 0; i < pose.l_num; ++i) point(pose.low_axis[i], cyan);
-  for (const FinPoints& fin : proposal.fins) {
+  point(c.rest.centre, {255, 255, 255});
+  for (int i = 0; i < c.u_num; ++i) point(c.rest.up_axis[i], cyan);
+  for (int i = 0; i < c.l_num; ++i) point(c.rest.low_axis[i], cyan);
+  for (const FinPoints& fin : c.rest.fins) {
     if (fin.present) point(fin.tip, green), point(fin.top, yellow), point(fin.bottom, yellow);
   }
-  point(pose.head, {240, 40, 30});
-  point(pose.tail, {40, 90, 255});
+  point(c.rest.head, {240, 40, 30});
+  point(c.rest.tail, {40, 90, 255});
 }
 
 }  // namespace
 
-cv::Mat draw_preview(const Character& character, const Proposal& proposal) {
-  cv::Mat picture = character.solid() ? top_view(character, proposal.pose) : drawing(character);
-  draw_points(picture, proposal);
+cv::Mat draw_preview(const Character& character) {
+  cv::Mat picture = character.solid() ? top_view(character) : drawing(character);
+  draw_points(picture, character);
   return picture;
 }
 

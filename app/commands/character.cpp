@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// neontetra character: a picture of a fish -> a character file, with what was found in it.
+// neontetra character: a picture or a mesh -> a character file, with what was found in it; a character file -> a corrected one.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <sstream>
 
-#include <opencv2/core.hpp>
-
 #include "app/author/character_file.h"
 #include "app/author/mesh_character.h"
 #include "app/author/mesh_file.h"
 #include "app/author/picture_character.h"
-#include "app/author/preview.h"
 #include "app/check_outputs.h"
 #include "app/cli.h"
-#include "app/export/png.h"
+#include "app/commands/character_corrections.h"
 #include "app/text_file.h"
 #include "platform/camera.h"
 
@@ -23,19 +20,11 @@ namespace nt {
 namespace {
 
 struct Options {
-  std::string picture, out, preview;
-  PictureOptions author;
+  std::string input, out, preview;
   std::string head, up;
   std::optional<int> vertices;
+  CorrectionOptions correct;
 };
-
-void write_preview(const std::string& path, const Character& character, const Proposal& proposal) {
-  const cv::Mat picture = draw_preview(character, proposal);
-  Picture out;
-  out.pixels = picture.data, out.width = picture.cols, out.height = picture.rows;
-  out.stride = static_cast<int>(picture.step), out.format = PixelFormat::rgb8;
-  write_png(path, out);
-}
 
 std::string found(const PictureReport& report) {
   std::ostringstream text;
@@ -45,29 +34,73 @@ std::string found(const PictureReport& report) {
   return text.str();
 }
 
-AuthoredCharacter author(const Options& options) {
-  if (!is_mesh_file(options.picture)) {
+bool is_character(const std::string& path) { return path.ends_with(".ntchar"); }
+
+// Numbers that corrections ask for are those that the points are found with.
+template <class T>
+T with_numbers(T options, const Corrections& corrections) {
+  options.u_num = corrections.u_num.value_or(options.u_num);
+  options.l_num = corrections.l_num.value_or(options.l_num);
+  options.harmonics = corrections.harmonics.value_or(options.harmonics);
+  return options;
+}
+
+AuthoredCharacter author(const Options& options, const Corrections& corrections) {
+  if (!is_mesh_file(options.input)) {
     if (!options.up.empty()) throw UserError("--up is for meshes; a picture's head is told by --head", 2);
-    PictureOptions picture = options.author;
+    PictureOptions picture = with_numbers(PictureOptions{}, corrections);
     if (options.vertices) picture.vertices = *options.vertices;
     if (!options.head.empty()) picture.head = parse_head_side(options.head);
-    return author_picture(options.picture, picture);
+    return author_picture(options.input, picture);
   }
-  MeshOptions mesh;
-  mesh.u_num = options.author.u_num, mesh.l_num = options.author.l_num, mesh.harmonics = options.author.harmonics;
+  MeshOptions mesh = with_numbers(MeshOptions{}, corrections);
   mesh.vertices = options.vertices.value_or(0);
   if (!options.head.empty()) mesh.told.head = parse_axis("--head", options.head);
   if (!options.up.empty()) mesh.told.up = parse_axis("--up", options.up);
-  return author_mesh(options.picture, mesh);
+  return author_mesh(options.input, mesh);
+}
+
+// Where the character goes: --out, or the character file itself that was named. "" for a mere --list.
+std::string output_of(const Options& options) {
+  if (!options.out.empty()) return options.out;
+  const bool changes = options.correct.edit || !options.correct.set.empty() || !options.correct.file.empty();
+  return is_character(options.input) && changes ? options.input : "";
+}
+
+void check_options(const Options& options, const std::string& out) {
+  if (is_character(options.input) && (!options.head.empty() || !options.up.empty() || options.vertices))
+    throw UserError(
+        "character: --head, --up and --vertices are for pictures and meshes; say --set head_end=left or X,Y", 2);
+  if (out.empty() && !options.correct.list && options.preview.empty())
+    throw UserError("character: say where it goes with --out FILE.ntchar, or --list, or --preview", 2);
+  if (!out.empty() && !is_character(out)) throw UserError("character: --out must end in .ntchar, not '" + out + "'", 2);
+  std::vector<std::string> inputs;
+  if (!is_character(options.input)) inputs.push_back(options.input);
+  check_outputs(inputs, {out, options.preview});
+}
+
+// What the input holds before it is corrected; what was found in it is said.
+LoadedCharacter proposal_of(const Options& options, const std::string& out, const Corrections& corrections) {
+  if (is_character(options.input)) return LoadedCharacter(options.input, Limits{});
+  const AuthoredCharacter authored = author(options, corrections);
+  const std::string& name = out.empty() ? options.input : out;
+  std::fputs((name + ": " + found(authored.report)).c_str(), options.correct.list ? stderr : stdout);
+  return LoadedCharacter(authored.bytes, name, Limits{});
 }
 
 void make_character(const Options& options) {
-  check_outputs({options.picture}, {options.out, options.preview});
-  const AuthoredCharacter authored = author(options);
-  const LoadedCharacter loaded(authored.bytes, options.out, Limits{});  // the same checks as when it is used
-  write_character_file(options.out, authored.bytes);
-  if (!options.preview.empty()) write_preview(options.preview, loaded.character(), authored.report.proposal);
-  write_text("-", options.out + ": " + found(authored.report));
+  const std::string out = output_of(options);
+  check_options(options, out);
+  const Corrections corrections = corrections_for(options.correct, out.empty() ? options.input : out);
+  const LoadedCharacter proposal = proposal_of(options, out, corrections);
+  const RiggedFigure figure(proposal.character());
+  const Rig rig = corrected(figure.found_for(corrections), corrections);
+  const RiggedCharacter made = figure.with(rig);
+  if (!options.preview.empty()) write_preview(options.preview, made.character);
+  if (options.correct.list) write_text("-", list_of_points(rig, options.correct.json));
+  const bool fresh = !is_character(options.input) || !options.correct.set.empty();
+  if (!out.empty() && (fresh || !options.correct.edit)) save_character(out, made.character, corrections);
+  if (options.correct.edit) edit_character(out, made.character, corrections, options.correct);
 }
 
 }  // namespace
@@ -75,13 +108,12 @@ void make_character(const Options& options) {
 void add_character(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("character", "Turn a picture or a 3D mesh into a character that can swim");
   auto options = std::make_shared<Options>();
-  PictureOptions& author = options->author;
   command
-      ->add_option("picture", options->picture,
-                   "a figure, best with a transparent ground (PNG), or a mesh (GLB, glTF, OBJ, PLY)")
-      ->type_name("PICTURE|MESH")
+      ->add_option("input", options->input,
+                   "a figure, best with a transparent ground (PNG), or a mesh (GLB, glTF, OBJ, PLY), or a character")
+      ->type_name("PICTURE|MESH|FILE.ntchar")
       ->required();
-  command->add_option("-o,--out", options->out, "the character file")->type_name("FILE.ntchar")->required();
+  command->add_option("-o,--out", options->out, "the character file")->type_name("FILE.ntchar");
   command
       ->add_option("--head", options->head,
                    "where the head is: left, right, up, down, or X,Y in shares of the picture (0.9,0.5); "
@@ -94,17 +126,12 @@ void add_character(CLI::App& app, Action& action) {
                    "of the triangles (default 2500 for a picture; a mesh keeps its own, at most 8192)")
       ->type_name("N")
       ->check(CLI::Range(100, 8000));
-  command->add_option("--u-num", author.u_num, "axis points centre to head (default 3)")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMaxUpAxis));
-  command->add_option("--l-num", author.l_num, "axis points centre to tail (default 15)")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMaxLowAxis));
-  command->add_option("--harmonics", author.harmonics, "elliptic Fourier harmonics of the outline (default 5)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 16));
+  add_correction_options(*command, options->correct);
   command->add_option("--preview", options->preview, "the picture with mesh and control points")->type_name("FILE.png");
-  command->footer("Example: neontetra character carp.png --out carp.ntchar --preview carp-check.png");
+  command->footer(
+      "Examples:\n"
+      "  neontetra character carp.png --out carp.ntchar --preview carp-check.png\n"
+      "  neontetra character --edit carp.ntchar");
   command->callback([&action, options] { action = [options] { make_character(*options); }; });
 }
 

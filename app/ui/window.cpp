@@ -7,10 +7,10 @@
 
 namespace nt {
 
-std::unique_ptr<Display> open_window(const std::string& title, int width, int height) {
+std::unique_ptr<Display> open_window(const std::string& title, int width, int height, WindowMode mode) {
   // libwayland, which SDL asks first, complains on stderr when this is not set.
   ::setenv("XDG_RUNTIME_DIR", "/nonexistent", 0);
-  std::unique_ptr<Display> display = open_sdl_display(title, width, height);
+  std::unique_ptr<Display> display = open_sdl_display(title, width, height, mode);
   const std::string name = display->name();
   const bool unseen = name.find("offscreen") != std::string::npos || name.find("dummy") != std::string::npos;
   if (unseen && std::getenv("SDL_VIDEODRIVER") == nullptr) {

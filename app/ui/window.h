@@ -10,6 +10,7 @@ namespace nt {
 
 // Throws UserError where there is no display. Without one SDL falls back to drivers that show nothing; these are taken
 // only when the user names one (SDL_VIDEODRIVER=offscreen), as tests do.
-std::unique_ptr<Display> open_window(const std::string& title, int width, int height);
+std::unique_ptr<Display> open_window(const std::string& title, int width, int height,
+                                     WindowMode mode = WindowMode::window);
 
 }  // namespace nt

@@ -119,6 +119,17 @@ Status check_counts(const CharacterHeader& h, const Limits& limits) {
   return {};
 }
 
+bool read_figure(const CharacterHeader& h, Character& c) {
+  c.figure = {
+      {h.figure_centre[0], h.figure_centre[1]}, {h.figure_dir[0], h.figure_dir[1]}, (h.flags & kCharacterMirror) != 0};
+  constexpr float kUnit = 1e-3f;  // rounding
+  const Vec2 range[] = {c.figure.centre, c.figure.dir};
+  if (!all_in_range(range) || !in_range(length_sq(c.figure.dir) - 1.0f, kUnit)) return false;
+  if (h.deformer > static_cast<uint32_t>(MlsKind::affine)) return false;
+  c.deformer = static_cast<MlsKind>(h.deformer);
+  return true;
+}
+
 ControlPoints read_controls(std::span<const Vec2> at, int u_num, int l_num, uint32_t flags) {
   ControlPoints c;
   std::size_t i = 0;
@@ -169,7 +180,7 @@ Result<Character> open_character(std::span<const std::byte> bytes, const Limits&
     return bad("character file is damaged (offsets); make it again with `neontetra character`");
   }
   if (!all_in_range(controls) || !all_unit(c.confidences) || !all_in_range(c.vertices) || !all_unit(c.texcoords) ||
-      !all_below(c.triangles, h.vertex_count)) {
+      !all_below(c.triangles, h.vertex_count) || !read_figure(h, c)) {
     return bad("character file is damaged (values out of range); make it again with `neontetra character`");
   }
   if (const Status s = read_solid(bytes, h, c); !s.ok()) return s;

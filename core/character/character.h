@@ -19,6 +19,7 @@
 #include "core/base/limits.h"
 #include "core/base/status.h"
 #include "core/base/vec3.h"
+#include "core/deform/mls.h"
 #include "core/landmarks/fish_pose.h"
 #include "core/scene/scene.h"
 
@@ -42,10 +43,20 @@ struct ControlPoints {
   FinPoints fins[kMaxFins];
 };
 
+// Where character units lie in the figure: pixels of the picture that was cut out, or of a solid's top view, x right, y down.
+// Control points that are corrected move the origin of character units; the figure stays.
+struct FigureFrame {
+  Vec2 centre;          // of the origin
+  Vec2 dir{0, -1};      // unit; where y leads to
+  bool mirror = false;  // the character is the figure's mirror image: x leads to the left of dir
+};
+
 struct Character {
   int u_num = 3, l_num = 15;
   int harmonics = 5;         // S
   bool has_tail_fin = true;  // false: the tail is the end of the body itself (a flower's stem, a lizard)
+  MlsKind deformer = MlsKind::rigid;
+  FigureFrame figure;
   ControlPoints rest;
   std::span<const float> confidences;   // one per control point in the file's order; 1 = sure or set by hand
   std::span<const Vec2> vertices;       // rest pose, character units

@@ -20,7 +20,8 @@ inline constexpr float kMaxCoordinate = 1e6f;      // character units; keeps squ
 inline constexpr uint32_t kCharacterFinBits = 0xf;
 inline constexpr uint32_t kCharacterTailFin = 0x10;  // the tail ends in a fin
 inline constexpr uint32_t kCharacterSolid = 0x20;    // heights and normals are there: a 3D character
-inline constexpr uint32_t kCharacterFlags = kCharacterFinBits | kCharacterTailFin | kCharacterSolid;
+inline constexpr uint32_t kCharacterMirror = 0x40;   // FigureFrame::mirror
+inline constexpr uint32_t kCharacterFlags = kCharacterFinBits | kCharacterTailFin | kCharacterSolid | kCharacterMirror;
 
 struct CharacterHeader {
   char magic[8];
@@ -42,7 +43,10 @@ struct CharacterHeader {
   uint64_t texcoords_offset;    // Vec2[vertex_count]
   uint64_t triangles_offset;    // uint32[3 * triangle_count]
   uint64_t texture_offset;      // rgba8, rows top down without padding
-  uint8_t reserved[64];         // 0
+  float figure_centre[2];       // FigureFrame, figure pixels
+  float figure_dir[2];          // unit length
+  uint32_t deformer;            // MlsKind: 0 rigid, 1 similarity, 2 affine
+  uint8_t reserved[44];         // 0
 };
 static_assert(sizeof(CharacterHeader) == 192 && offsetof(CharacterHeader, file_bytes) == 24);
 

@@ -110,10 +110,12 @@ class HeadlessDisplay : public Display {
     context_.use();
     return GlesRenderer::description();
   }
-  void draw(const Scene& scene) override {
+  DisplaySize size() const override { return {width_, height_}; }
+  void draw_over(const Scene& scene, const std::function<void()>& over) override {
     context_.use();
     framebuffer_.bind();
     renderer_.draw(scene, width_, height_, RowOrder::top_down);
+    if (over) over();
   }
   std::span<const uint8_t> pixels() override {
     context_.use();

@@ -22,6 +22,8 @@ class SdlVideo {
     // Without the hint SDL asks GLX for the context, and desktop drivers then may not offer ES.
     SDL_SetHint(SDL_HINT_OPENGL_ES_DRIVER, "1");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    // Fingers come as fingers, not once more as a mouse.
+    SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) fail("there is no display");
   }
   ~SdlVideo() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
@@ -31,19 +33,26 @@ class SdlVideo {
 
 class SdlWindow {
  public:
-  SdlWindow(const std::string& title, int width, int height) {
+  SdlWindow(const std::string& title, int width, int height, WindowMode mode) {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
-    // No larger than the screen, frame of the window included; the canvas keeps its aspect inside.
+    Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     SDL_Rect screen{};
-    if (SDL_GetDisplayUsableBounds(0, &screen) == 0 && screen.w > 0 && screen.h > 0) {
+    const bool known = SDL_GetDisplayUsableBounds(0, &screen) == 0 && screen.w > 0 && screen.h > 0;
+    const bool small = known && mode == WindowMode::large && (screen.w <= width || screen.h <= height);
+    int place = SDL_WINDOWPOS_CENTERED;
+    if (small || mode == WindowMode::full_screen) {
+      flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
+      // Where no window manager makes it fill the screen it does so from the start.
+      if (known) width = screen.w, height = screen.h, place = 0;
+    } else if (known) {
+      // No larger than the screen, frame of the window included; the canvas keeps its aspect inside.
       const double fit = std::min({1.0, 0.95 * screen.w / width, 0.9 * screen.h / height});
       width = std::max(static_cast<int>(width * fit), 1);
       height = std::max(static_cast<int>(height * fit), 1);
     }
-    const Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
-    window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, flags);
+    window_ = SDL_CreateWindow(title.c_str(), place, place, width, height, flags);
     if (window_ == nullptr) fail("it cannot be opened");
     context_ = SDL_GL_CreateContext(window_);
     if (context_ == nullptr) {
@@ -73,19 +82,24 @@ class SdlWindow {
 
 class SdlDisplay : public Display {
  public:
-  SdlDisplay(const std::string& title, int width, int height) : window_(title, width, height) {}
+  SdlDisplay(const std::string& title, int width, int height, WindowMode mode) : window_(title, width, height, mode) {}
   ~SdlDisplay() override { window_.use(); }
   std::string name() const override { return std::string("SDL2 window (") + SDL_GetCurrentVideoDriver() + ")"; }
   std::string renderer() const override {
     window_.use();
     return GlesRenderer::description();
   }
-  void draw(const Scene& scene) override {
+  DisplaySize size() const override {
+    DisplaySize size;
+    SDL_GL_GetDrawableSize(window_.get(), &size.width, &size.height);
+    return size;
+  }
+  void draw_over(const Scene& scene, const std::function<void()>& over) override {
     window_.use();
-    int width = 0, height = 0;
-    SDL_GL_GetDrawableSize(window_.get(), &width, &height);
-    renderer_.draw(scene, width, height, RowOrder::bottom_up);
+    const DisplaySize shown = size();
+    renderer_.draw(scene, shown.width, shown.height, RowOrder::bottom_up);
     canvas_width_ = scene.width(), canvas_height_ = scene.height();
+    if (over) over();
     SDL_GL_SwapWindow(window_.get());
   }
   void poll(std::vector<InputEvent>& events) override {
@@ -97,33 +111,81 @@ class SdlDisplay : public Display {
  private:
   void translate(const SDL_Event& event, std::vector<InputEvent>& events) const {
     InputEvent out;
-    if (event.type == SDL_QUIT) {
-      out.kind = InputEvent::Kind::quit;
-    } else if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym < 128) {
-      out.kind = InputEvent::Kind::key;
-      out.key = event.key.keysym.sym;  // SDL's key codes are lower-case ASCII where ASCII has the key
-    } else if (event.type == SDL_MOUSEBUTTONDOWN && event.button.button == SDL_BUTTON_LEFT) {
-      out.kind = InputEvent::Kind::click;
-      if (!to_scene(event.button.x, event.button.y, out.at)) return;
-    } else {
-      return;
+    switch (event.type) {
+      case SDL_QUIT:
+        out.kind = InputEvent::Kind::quit;
+        break;
+      case SDL_KEYDOWN:
+        if (!translate_key(event.key, out)) return;
+        break;
+      case SDL_MOUSEBUTTONDOWN:
+      case SDL_MOUSEBUTTONUP:
+        if (event.button.button != SDL_BUTTON_LEFT) return;
+        out.kind = event.type == SDL_MOUSEBUTTONDOWN ? InputEvent::Kind::click : InputEvent::Kind::release;
+        if (!to_scene(static_cast<float>(event.button.x), static_cast<float>(event.button.y), out)) return;
+        break;
+      case SDL_MOUSEMOTION:
+        out.kind = InputEvent::Kind::move;
+        if (!to_scene(static_cast<float>(event.motion.x), static_cast<float>(event.motion.y), out)) return;
+        break;
+      case SDL_FINGERDOWN:
+      case SDL_FINGERUP:
+      case SDL_FINGERMOTION:
+        if (!translate_finger(event.tfinger, out)) return;
+        break;
+      default:
+        return;
     }
     events.push_back(out);
   }
 
-  // Window units are not display pixels on a high-density screen. False in the bars beside the canvas.
-  bool to_scene(int x, int y, Vec2& at) const {
-    int window_width = 0, window_height = 0, width = 0, height = 0;
+  static bool translate_key(const SDL_KeyboardEvent& key, InputEvent& out) {
+    out.kind = InputEvent::Kind::key;
+    out.ctrl = (key.keysym.mod & KMOD_CTRL) != 0;
+    out.shift = (key.keysym.mod & KMOD_SHIFT) != 0;
+    switch (key.keysym.sym) {
+      case SDLK_LEFT:
+        out.key = kKeyLeft;
+        return true;
+      case SDLK_RIGHT:
+        out.key = kKeyRight;
+        return true;
+      case SDLK_UP:
+        out.key = kKeyUp;
+        return true;
+      case SDLK_DOWN:
+        out.key = kKeyDown;
+        return true;
+      default:
+        out.key = key.keysym.sym;  // SDL's key codes are lower-case ASCII where ASCII has the key
+        return key.repeat == 0 && out.key < 128;
+    }
+  }
+
+  bool translate_finger(const SDL_TouchFingerEvent& finger, InputEvent& out) const {
+    out.kind = finger.type == SDL_FINGERDOWN ? InputEvent::Kind::click
+               : finger.type == SDL_FINGERUP ? InputEvent::Kind::release
+                                             : InputEvent::Kind::move;
+    out.finger = true, out.finger_id = finger.fingerId;
+    int width = 0, height = 0;
+    SDL_GetWindowSize(window_.get(), &width, &height);
+    return to_scene(finger.x * static_cast<float>(width), finger.y * static_cast<float>(height), out);
+  }
+
+  // Window units are not display pixels on a high-density screen. False for a click in the bars beside the canvas.
+  bool to_scene(float x, float y, InputEvent& out) const {
+    int window_width = 0, window_height = 0;
     SDL_GetWindowSize(window_.get(), &window_width, &window_height);
-    SDL_GL_GetDrawableSize(window_.get(), &width, &height);
+    const DisplaySize shown = size();
     if (window_width <= 0 || window_height <= 0) return false;
-    const CanvasFit fit = fit_canvas(canvas_width_, canvas_height_, width, height);
-    const float density_x = static_cast<float>(width) / static_cast<float>(window_width);
-    const float density_y = static_cast<float>(height) / static_cast<float>(window_height);
-    at.x = (static_cast<float>(x) * density_x - static_cast<float>(fit.x)) / fit.scale;
-    at.y = (static_cast<float>(y) * density_y - static_cast<float>(fit.y)) / fit.scale;
-    return at.x >= 0 && at.y >= 0 && at.x < static_cast<float>(canvas_width_) &&
-           at.y < static_cast<float>(canvas_height_);
+    const CanvasFit fit = fit_canvas(canvas_width_, canvas_height_, shown.width, shown.height);
+    const float density_x = static_cast<float>(shown.width) / static_cast<float>(window_width);
+    const float density_y = static_cast<float>(shown.height) / static_cast<float>(window_height);
+    out.at.x = (x * density_x - static_cast<float>(fit.x)) / fit.scale;
+    out.at.y = (y * density_y - static_cast<float>(fit.y)) / fit.scale;
+    return out.kind != InputEvent::Kind::click ||
+           (out.at.x >= 0 && out.at.y >= 0 && out.at.x < static_cast<float>(canvas_width_) &&
+            out.at.y < static_cast<float>(canvas_height_));
   }
 
   SdlVideo video_;
@@ -134,9 +196,9 @@ class SdlDisplay : public Display {
 
 }  // namespace
 
-std::unique_ptr<Display> open_sdl_display(const std::string& title, int width, int height) {
+std::unique_ptr<Display> open_sdl_display(const std::string& title, int width, int height, WindowMode mode) {
   if (width <= 0 || height <= 0) throw UserError("a window needs at least 1x1 pixels");
-  return std::make_unique<SdlDisplay>(title, width, height);
+  return std::make_unique<SdlDisplay>(title, width, height, mode);
 }
 
 }  // namespace nt

@@ -113,6 +113,69 @@ TEST_F(SdlDisplayTest, KeysAndQuit) {
   EXPECT_EQ(events[2].kind, InputEvent::Kind::quit);
 }
 
+TEST_F(SdlDisplayTest, FingersAreClicksMovesAndReleasesInScenePixels) {
+  open(400, 200);
+  if (!display_) return;
+  Scene scene;
+  scene.clear(50, 50, {});
+  display_->draw(scene);  // drawn at scale 4, from x = 100 to 300
+  std::vector<InputEvent> events;
+  display_->poll(events);
+  for (const Uint32 type : {SDL_FINGERDOWN, SDL_FINGERMOTION, SDL_FINGERUP}) {
+    SDL_Event event{};
+    event.type = type;
+    event.tfinger.fingerId = 9;
+    event.tfinger.x = type == SDL_FINGERUP ? 0.95f : 0.5f, event.tfinger.y = 0.5f;
+    SDL_PushEvent(&event);
+  }
+  display_->poll(events);
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].kind, InputEvent::Kind::click);
+  EXPECT_EQ(events[1].kind, InputEvent::Kind::move);
+  EXPECT_EQ(events[2].kind, InputEvent::Kind::release);
+  for (const InputEvent& event : events) {
+    EXPECT_TRUE(event.finger);
+    EXPECT_EQ(event.finger_id, 9);
+  }
+  EXPECT_NEAR(events[0].at.x, 25, 0.01f);
+  EXPECT_NEAR(events[0].at.y, 25, 0.01f);
+  EXPECT_NEAR(events[2].at.x, 70, 0.01f);  // in the bar: a release is told wherever it is
+}
+
+TEST_F(SdlDisplayTest, ArrowsAndControlAreTold) {
+  open(64, 64);
+  if (!display_) return;
+  std::vector<InputEvent> events;
+  display_->poll(events);
+  push_key(SDLK_LEFT);
+  SDL_Event undo{};
+  undo.type = SDL_KEYDOWN;
+  undo.key.keysym.sym = SDLK_z, undo.key.keysym.mod = KMOD_LCTRL;
+  SDL_PushEvent(&undo);
+  display_->poll(events);
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].key, kKeyLeft);
+  EXPECT_FALSE(events[0].ctrl);
+  EXPECT_EQ(events[1].key, 'z');
+  EXPECT_TRUE(events[1].ctrl);
+}
+
+TEST_F(SdlDisplayTest, WhatIsDrawnOverTheSceneIsDrawnInItsContext) {
+  open(64, 64);
+  if (!display_) return;
+  Scene scene;
+  scene.clear(64, 64, {1, 1, 1, 1});
+  display_->draw_over(scene, [] {
+    glClearColor(0, 1, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+  });
+  uint8_t rgba[4] = {};
+  glReadPixels(32, 32, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  EXPECT_EQ(rgba[0], 0);
+  EXPECT_EQ(rgba[1], 255);
+  EXPECT_EQ(display_->size().width, 64);
+}
+
 [[noreturn]] void open_without_display() {
   for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) unsetenv(variable);
   setenv("SDL_VIDEODRIVER", "x11", 1);

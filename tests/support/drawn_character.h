@@ -22,6 +22,7 @@ class DrawnCharacter {
     CharacterHeader h{};
     std::memcpy(h.magic, kCharacterMagic, sizeof h.magic);
     h.version = kCharacterVersion, h.header_bytes = sizeof h;
+    h.figure_centre[0] = 100, h.figure_centre[1] = 100, h.figure_dir[1] = -1;
     h.u_num = static_cast<uint32_t>(u_num), h.l_num = static_cast<uint32_t>(l_num);
     h.harmonics = 5, h.flags = kCharacterTailFin | (fins ? 3u : 0u) | (solid ? kCharacterSolid : 0u);
     std::vector<std::byte> out(sizeof h);

@@ -75,6 +75,7 @@ DrawnFish::DrawnFish() : block_(kFileBytes) {
   h.header_bytes = sizeof h;
   h.file_bytes = kFileBytes;
   h.u_num = kUp, h.l_num = kLow, h.harmonics = 5, h.flags = kCharacterTailFin | 3u;
+  h.figure_dir[1] = -1;
   h.vertex_count = kFishVertices, h.triangle_count = kFishTriangles;
   h.texture_width = h.texture_height = 1;
   h.controls_offset = kControlsAt, h.confidences_offset = kConfidencesAt;

@@ -55,6 +55,25 @@ TEST(Character, OpensWhatWasWritten) {
   EXPECT_EQ(c.texture.pixels[3], 255);
 }
 
+TEST(Character, KnowsWhereItLiesInItsFigureAndItsDeformer) {
+  DrawnCharacter drawn;
+  put(drawn, offsetof(CharacterHeader, deformer), uint32_t{2});
+  put(drawn, offsetof(CharacterHeader, flags), drawn.header().flags | kCharacterMirror);
+  const auto opened = open(drawn.bytes());
+  ASSERT_TRUE(opened.ok()) << opened.status().message;
+  EXPECT_EQ(opened.value().figure.centre.x, 100);
+  EXPECT_EQ(opened.value().figure.dir.y, -1);
+  EXPECT_TRUE(opened.value().figure.mirror);
+  EXPECT_EQ(opened.value().deformer, MlsKind::affine);
+  put(drawn, offsetof(CharacterHeader, deformer), uint32_t{3});
+  EXPECT_FALSE(open(drawn.bytes()).ok());
+  put(drawn, offsetof(CharacterHeader, deformer), uint32_t{0});
+  put(drawn, offsetof(CharacterHeader, figure_dir), 1.0f);  // (1, -1): not of unit length
+  EXPECT_FALSE(open(drawn.bytes()).ok());
+  put(drawn, offsetof(CharacterHeader, figure_dir), std::numeric_limits<float>::quiet_NaN());
+  EXPECT_FALSE(open(drawn.bytes()).ok());
+}
+
 TEST(Character, ASolidHasHeightsAndNormals) {
   DrawnCharacter drawn(true, 3, 15, true);
   const auto opened = open(drawn.bytes());
@@ -130,7 +149,7 @@ TEST(Character, ValuesOutOfRangeAreRefusedBehindARightChecksum) {
   EXPECT_TRUE(refused(h.texcoords_offset, nan));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, u_num), uint32_t{0}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, l_num), uint32_t{33}));
-  EXPECT_TRUE(refused(offsetof(CharacterHeader, flags), uint32_t{0x40}));
+  EXPECT_TRUE(refused(offsetof(CharacterHeader, flags), uint32_t{0x80}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, harmonics), uint32_t{17}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, heights_offset), h.vertices_offset));
   EXPECT_TRUE(refused(h.confidences_offset, 1.5f));

@@ -88,7 +88,8 @@ cv::Mat silhouette(std::span<const Vec2> vertices, std::span<const uint32_t> tri
   return mask;
 }
 
-std::vector<Vec2> outer_border(const cv::Mat& mask) {
+// Leaves of a mask its largest figure, filled, and gives its border.
+std::vector<Vec2> keep_largest(cv::Mat& mask) {
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::vector<Vec2> outline;
@@ -96,6 +97,8 @@ std::vector<Vec2> outer_border(const cv::Mat& mask) {
     return cv::contourArea(a) < cv::contourArea(b);
   });
   if (largest == contours.end()) return outline;
+  mask.setTo(0);
+  cv::drawContours(mask, std::vector<std::vector<cv::Point>>{*largest}, 0, 255, cv::FILLED);
   for (const cv::Point p : *largest) outline.push_back(vec(p));
   return outline;
 }
@@ -178,10 +181,13 @@ Rig RiggedFigure::propose(const Rig& now, int harmonics) const {
   } else {
     rgba = cv::Mat(size, CV_8UC4, const_cast<uint8_t*>(texture_.pixels), static_cast<std::size_t>(texture_.stride));
   }
-  const cv::Mat mask = silhouette(vertices_, triangles_, origin, size);
+  cv::Mat mask = silhouette(vertices_, triangles_, origin, size);
+  // Parts of a solid that touch nearly are one figure (mesh_character.cpp).
+  if (solid()) cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {9, 9}));
+  const std::vector<Vec2> outline = keep_largest(mask);
   const ToldHead told{now.head - vec(origin), normalised(now.head - now.tail)};
   const Proposal proposal =
-      propose_landmarks("the figure", mask, rgba, outer_border(mask), told, {now.u_num, now.l_num, harmonics});
+      propose_landmarks("the figure", mask, rgba, outline, told, {now.u_num, now.l_num, harmonics});
   return rig_of(proposal, vec(origin), now, harmonics);
 }
 

@@ -21,7 +21,7 @@ constexpr float kGapShare = 0.13f;
 // How near a pointer must come to a point, in units: a finger is blunter than a mouse.
 constexpr float kMouseReach = 0.4f, kFingerReach = 0.7f;
 constexpr float kDotShare = 0.3f;
-constexpr float kSwimLength = 0.8f;  // of the canvas' shorter side
+constexpr float kSwimLength = 0.68f;  // of the canvas' shorter side
 
 const char* hint_for(Tool tool) {
   if (tool == Tool::midline) return "Draw a line from head to tail.";

@@ -129,9 +129,8 @@ void add_character(CLI::App& app, Action& action) {
   add_correction_options(*command, options->correct);
   command->add_option("--preview", options->preview, "the picture with mesh and control points")->type_name("FILE.png");
   command->footer(
-      "Examples:\n"
-      "  neontetra character carp.png --out carp.ntchar --preview carp-check.png\n"
-      "  neontetra character --edit carp.ntchar");
+      "Example: neontetra character carp.png --out carp.ntchar --preview carp-check.png\n"
+      "         neontetra character --edit carp.ntchar");
   command->callback([&action, options] { action = [options] { make_character(*options); }; });
 }
 

@@ -85,7 +85,7 @@ TEST_F(CharacterCommand, MistakesAreOneLine) {
   refused(file_ + " --set haed=1,2", "--set: there is no 'haed'; did you mean head?");
   refused(file_ + " --l-num 40", "--set: l_num must be a whole number from 1 to 32, not '40'");
   refused(file_ + " --set low_axis_20=1,2", "there is no low_axis_20");
-  refused(file_ + " --head left", "--head is for pictures");
+  refused(file_ + " --head left", "are for pictures and meshes");
   refused(kCarp, "--out FILE.ntchar");
   refused(kCarp + " --edit", "--out FILE.ntchar");
   refused(kCarp + " --out " + (dir_ / "koi.png"), "must end in .ntchar");

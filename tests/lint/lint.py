@@ -10,7 +10,7 @@ import re
 import subprocess
 import sys
 
-CORE_ORDER = ["base", "frame", "segment", "outline", "landmarks", "motion", "scene", "deform", "character", "pipeline"]
+CORE_ORDER = ["base", "frame", "stabilise", "segment", "outline", "landmarks", "motion", "scene", "deform", "character", "pipeline"]
 MAX_LINES = 500
 CORE_FORBIDDEN_HEADERS = re.compile(
     r"^(iostream|fstream|sstream|iomanip|vector|string|string_view|deque|list|map|set|unordered_map|unordered_set|"

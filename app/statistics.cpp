@@ -6,8 +6,8 @@
 
 namespace nt {
 
-const char* const kFlagNames[kFlags] = {"runs_dropped", "blobs_dropped",     "contour_cut",   "frame_too_large",
-                                        "relearned",    "head_tail_swapped", "shadow_removed"};
+const char* const kFlagNames[kFlags] = {"runs_dropped", "blobs_dropped",     "contour_cut",    "frame_too_large",
+                                        "relearned",    "head_tail_swapped", "shadow_removed", "stabilised"};
 
 void TimeHistogram::add(int64_t ns) {
   const double octaves = ns > 1 ? std::log2(static_cast<double>(ns)) : 0.0;

@@ -23,7 +23,7 @@ class TimeHistogram {
 };
 
 inline constexpr int kStatuses = 6;
-inline constexpr int kFlags = 7;
+inline constexpr int kFlags = 8;
 extern const char* const kFlagNames[kFlags];  // in the order of StepFlag's bits
 
 struct Statistics {

@@ -9,10 +9,21 @@ namespace nt {
 
 using NowNs = int64_t (*)();
 
-enum class Stage : uint8_t { background, clean, components, target, refine, outline, landmarks, motion, count };
+enum class Stage : uint8_t {
+  stabilise,
+  background,
+  clean,
+  components,
+  target,
+  refine,
+  outline,
+  landmarks,
+  motion,
+  count
+};
 inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::count);
-inline constexpr const char* kStageNames[kStages] = {"background", "clean",   "components", "target",
-                                                     "refine",     "outline", "landmarks",  "motion"};
+inline constexpr const char* kStageNames[kStages] = {"stabilise", "background", "clean",     "components", "target",
+                                                     "refine",    "outline",    "landmarks", "motion"};
 
 struct StageTimes {
   std::array<int64_t, kStages> ns{};

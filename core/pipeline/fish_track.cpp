@@ -78,7 +78,7 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   if (count < 0) tools.report.flags |= kContourCut;
   contour_count = max_int(count, 0);
   contour_high_water = max_int(contour_high_water, contour_count);
-  const bool cut = measure_contour(luma.width, luma.height);
+  const bool cut = measure_contour(luma.width, luma.height, tools.frame_from_reference);
   tools.clock.lap(Stage::outline);
   const float enclosed = enclosed_px();
   if (cut || leaves_tank) return PoseStatus::partial;
@@ -126,16 +126,18 @@ bool FishTrack::part(const CaptureTools& tools, const FishMask& fish, int mine) 
   return true;
 }
 
-// Its box; true when the fish may be cut by the frame's edge: two pixels short of it, because its rim is half-transparent.
-bool FishTrack::measure_contour(int width, int height) {
+// Its box; true when the fish may be cut by the edge of the frame or of the reference: two pixels short of it, because its
+// rim is half-transparent.
+bool FishTrack::measure_contour(int width, int height, const Similarity& frame_from_reference) {
   const float right = static_cast<float>(width - 3), bottom = static_cast<float>(height - 3);
+  const auto at_edge = [&](Vec2 p) { return p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom; };
   bool cut = false;
   if (contour_count > 0) box = {width, height, 0, 0};
   for (const Vec2 p : points()) {
     const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
     box.x0 = min_int(box.x0, x), box.x1 = max_int(box.x1, x + 1);
     box.y0 = min_int(box.y0, y), box.y1 = max_int(box.y1, y + 1);
-    cut |= p.x <= 2 || p.y <= 2 || p.x >= right || p.y >= bottom;
+    cut |= at_edge(p) || at_edge(frame_from_reference(p));
   }
   return cut;
 }
@@ -185,6 +187,7 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   if (landmarks.swapped()) tools.report.flags |= kHeadTailSwapped;
   pose.status = PoseStatus::ok;
   remember(landmarks);
+  if (tools.moved) to_frame(tools.frame_from_reference);
   motion = motion_from_pose(pose, tools.frame.timestamp_ns, has_motion ? &motion : nullptr);
   has_motion = true;
   tools.clock.lap(Stage::motion);
@@ -206,6 +209,24 @@ void FishTrack::remember(const Landmarks& landmarks) {
   known_len_ = known_len_ > 0 ? known_len_ + (pose.axis_len - known_len_) * 0.1f : pose.axis_len;
   const std::span<const Vec2> reconstruction = landmarks.smooth_contour();
   for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = reconstruction[i];
+}
+
+// Everything that is handed out.
+void FishTrack::to_frame(const Similarity& t) {
+  for (Vec2& p : contour.first(static_cast<std::size_t>(contour_count))) p = t(p);
+  for (Vec2& p : smooth) p = t(p);
+  for (Vec2* p : {&pose.centre, &pose.head, &pose.tail, &pose.l_fin, &pose.r_fin, &pose.jun_tl, &pose.jun_tr,
+                  &pose.jun_bl, &pose.jun_br})
+    *p = t(*p);
+  for (Vec2& p : pose.up_axis) p = t(p);
+  for (Vec2& p : pose.low_axis) p = t(p);
+  pose.dir = normalised(t.turned(pose.dir));
+  pose.axis_len *= t.scale();
+}
+
+void FishTrack::change_reference(const Similarity& new_from_old) {
+  for (Vec2* p : {&last_head_, &last_tail_, &last_centre_}) *p = new_from_old(*p);
+  travel_ = new_from_old.turned(travel_);
 }
 
 // What is around the fish becomes next frame's `protect`.

@@ -5,11 +5,13 @@
 // its swimmer's blob in one frame -> this fish's outline, pose, motion, or a status that says why there is none.
 // What holds for the whole frame (background, blobs, the scratch of refine and landmarks) is lent by CaptureTools, so a
 // fish costs its contour (8 bytes a point of Limits::max_contour_points), one bit a pixel and a few kilobytes.
-// Frame of reference: pixels of the frame handed in.
+// Frame of reference: blobs, memories and predictions are in the pixels of the reference frame (stabilise/), in which the
+// tank stands still; pose, motion and contour are given in those of the frame handed in. Mostly the two are one.
 #pragma once
 #include <span>
 
 #include "core/base/arena.h"
+#include "core/base/similarity.h"
 #include "core/base/stage_clock.h"
 #include "core/frame/frame.h"
 #include "core/landmarks/landmarks.h"
@@ -23,7 +25,9 @@ namespace nt {
 
 // What the fish of one frame share.
 struct CaptureTools {
-  const Frame& frame;
+  const Frame& frame;  // its luma as the reference camera would have seen it
+  const Similarity& frame_from_reference;
+  bool moved;  // frame_from_reference is not the identity
   const CaptureSettings& settings;
   Background& background;
   const Blobs& blobs;
@@ -60,13 +64,16 @@ struct FishTrack {
   // A frame that gives no pose.
   void miss(PoseStatus status);
   void unprotect() { protected_now = false; }
+  // Another frame is the reference from now on.
+  void change_reference(const Similarity& new_from_old);
 
  private:
   PoseStatus look_for(const CaptureTools& tools, Swimmer& swimmer);
   PoseStatus outline(const CaptureTools& tools, int blob);
   bool clip(const CaptureTools& tools, const FishMask& fish) const;
   bool part(const CaptureTools& tools, const FishMask& fish, int blob) const;
-  bool measure_contour(int width, int height);
+  bool measure_contour(int width, int height, const Similarity& frame_from_reference);
+  void to_frame(const Similarity& frame_from_reference);
   float enclosed_px() const;
   PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
   bool still_entering(const LumaView& luma);

@@ -33,6 +33,7 @@ struct CaptureImpl final : Capture {
   std::size_t bytes_used = 0;
 
   Background* background = nullptr;
+  Stabiliser* stabiliser = nullptr;  // null: the camera stands still
   Blobs* blobs = nullptr;
   Refine* refine = nullptr;
   Landmarks* landmarks = nullptr;
@@ -45,6 +46,8 @@ struct CaptureImpl final : Capture {
   BitMask tank;  // where fish can be; of width 0: everywhere
   int tank_pixels = 0;
   BitMask keep;  // what all fish protect, where there are several
+  Similarity frame_from_reference;
+  bool has_background = false;  // its estimate means something
 
   int view_count = 0;
   int flood_frames = 0;
@@ -52,6 +55,9 @@ struct CaptureImpl final : Capture {
 
   bool layout(Arena& arena, int w, int h);
   StepReport run(const Frame& frame, NowNs now);
+  bool steady(Frame& frame, StageClock& clock, StepReport& report);
+  void restart_background();
+  void change_reference();
   bool segment(const Frame& frame, StageClock& clock, StepReport& report);
   void fill_tank();
   const BitMask* protected_pixels();
@@ -80,6 +86,7 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   auto model = Background::create(arena, limits, settings.background, w, h, settings.seed);
   if (!model.ok()) return false;
   background = model.value();
+  stabiliser = Stabiliser::create(arena, settings.stabilise, w, h);
   raw = take_mask(arena, w, h);
   scratch = take_mask(arena, w, h);
   open = take_mask(arena, w, h);
@@ -109,9 +116,45 @@ void CaptureImpl::fill_tank() {
   settings.tank = {};  // its owner may forget it
 }
 
+// The frame as the reference camera would have seen it. False when it cannot be told.
+bool CaptureImpl::steady(Frame& frame, StageClock& clock, StepReport& report) {
+  if (stabiliser == nullptr) return true;
+  const Stabilised seen = stabiliser->apply(frame.luma, has_background ? background->estimate() : LumaView{});
+  clock.lap(Stage::stabilise);
+  if (seen.renewed) {
+    change_reference();
+    background->restart();
+    unprotect();
+    report.flags |= kRelearned;
+    return true;
+  }
+  if (seen.lost) return false;
+  frame.luma = seen.luma;
+  frame_from_reference = seen.frame_from_reference;
+  if (seen.moved) report.flags |= kStabilised;
+  return true;
+}
+
+void CaptureImpl::restart_background() {
+  background->restart();
+  flood_frames = 0;
+  unprotect();
+  if (stabiliser == nullptr) return;
+  stabiliser->restart();
+  change_reference();
+}
+
+// From now on places are counted from what the camera sees now.
+void CaptureImpl::change_reference() {
+  for (FishTrack& one : fish) one.change_reference(frame_from_reference);
+  for (Swimmer& one : swimmers.all()) one.change_reference(frame_from_reference);
+  frame_from_reference = {};
+}
+
 // Background to blobs. False when the mask of this frame means nothing.
 bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& report) {
   const bool means_something = background->apply(frame.luma, protected_pixels(), raw);
+  has_background = true;
   clock.lap(Stage::background);
   if (!tank.empty())
     for (int i = 0; i < raw.words_per_row * height; ++i) raw.words[i] &= tank.words[i];
@@ -122,9 +165,7 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
   }
   flood_frames = report.foreground_share > kFloodShare ? flood_frames + 1 : 0;
   if (flood_frames >= kFloodFrames) {
-    background->restart();
-    flood_frames = 0;
-    unprotect();
+    restart_background();
     report.flags |= kRelearned;
     return false;
   }
@@ -216,7 +257,11 @@ void CaptureImpl::publish_blobs() {
   const Swimmer* mine = swimmers.find(target.id());
   for (const Blob& b : blobs->blobs()) {
     const bool selected = mine != nullptr && mine->blob == view_count;
-    views[static_cast<std::size_t>(view_count++)] = {b.box, b.centroid, b.area_px, selected};
+    const Vec2 low{static_cast<float>(b.box.x0), static_cast<float>(b.box.y0)};
+    const Vec2 by = frame_from_reference(low) - low;
+    const int dx = static_cast<int>(by.x), dy = static_cast<int>(by.y);
+    const Box box{b.box.x0 + dx, b.box.y0 + dy, b.box.x1 + dx, b.box.y1 + dy};
+    views[static_cast<std::size_t>(view_count++)] = {box, frame_from_reference(b.centroid), b.area_px, selected};
   }
 }
 
@@ -237,7 +282,8 @@ StepReport CaptureImpl::finish(StepReport report, PoseStatus status) {
   return report;
 }
 
-StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
+StepReport CaptureImpl::run(const Frame& given, NowNs now) {
+  Frame frame = given;
   StepReport report;
   StageClock clock(now, report.times);
   view_count = 0;
@@ -245,7 +291,7 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
     report.flags |= kFrameSize;
     return finish(report, miss_all(PoseStatus::absent));
   }
-  if (!segment(frame, clock, report)) {
+  if (!steady(frame, clock, report) || !segment(frame, clock, report)) {
     return finish(report, miss_all(PoseStatus::relearn));
   }
   swimmers.update(blobs->blobs(), blobs->runs(), frame.luma);
@@ -254,8 +300,19 @@ StepReport CaptureImpl::run(const Frame& frame, NowNs now) {
   publish_blobs();
   clock.lap(Stage::target);
   const std::array<BitMask, 3> spare{scratch, open, raw};  // the blobs hold what is still needed of them
-  const CaptureTools tools{frame, settings, *background, *blobs, swimmers, tank.empty() ? nullptr : &tank,
-                           spare, *refine,  *landmarks,  clock,  report};
+  const CaptureTools tools{frame,
+                           frame_from_reference,
+                           (report.flags & kStabilised) != 0,
+                           settings,
+                           *background,
+                           *blobs,
+                           swimmers,
+                           tank.empty() ? nullptr : &tank,
+                           spare,
+                           *refine,
+                           *landmarks,
+                           clock,
+                           report};
   for (FishTrack& one : fish) one.follow(tools);
   return finish(report, the_fish(kTarget).pose.status);
 }
@@ -301,13 +358,16 @@ Result<Capture*> Capture::create(std::span<std::byte> memory, const Limits& limi
 
 void Capture::learn(const Frame& frame) {
   CaptureImpl& c = impl(*this);
-  if (frame.luma.width == c.width && frame.luma.height == c.height) c.background->learn(frame.luma);
+  if (frame.luma.width != c.width || frame.luma.height != c.height) return;
+  if (c.stabiliser == nullptr) return c.background->learn(frame.luma);
+  const Stabilised seen = c.stabiliser->apply(frame.luma, {});
+  if (!seen.lost) c.background->learn(seen.luma);
 }
 StepReport Capture::step(const Frame& frame, NowNs now) { return impl(*this).run(frame, now); }
-void Capture::select_at(Vec2 point) { impl(*this).target.select_at(point); }
+void Capture::select_at(Vec2 point) { impl(*this).target.select_at(impl(*this).frame_from_reference.inverse()(point)); }
 void Capture::select_next() { impl(*this).target.select_next(); }
 void Capture::select_auto() { impl(*this).target.select_auto(); }
-void Capture::relearn() { impl(*this).background->restart(), impl(*this).unprotect(); }
+void Capture::relearn() { impl(*this).restart_background(); }
 int Capture::fish_count() const { return static_cast<int>(impl(*this).fish.size()); }
 int Capture::target() const { return impl(*this).target_fish; }
 const FishPose& Capture::pose(int fish) const { return impl(*this).the_fish(fish).pose; }
@@ -326,6 +386,9 @@ std::span<const Vec2> Capture::smooth_contour(int fish) const {
   return one.pose.ok() ? one.smooth : std::span<const Vec2>{};
 }
 const char* Capture::background_name() const { return impl(*this).background->name(); }
+const Similarity& Capture::camera_motion() const { return impl(*this).frame_from_reference; }
+bool Capture::stabilising() const { return impl(*this).stabiliser != nullptr && impl(*this).stabiliser->active(); }
+bool Capture::camera_unknowable() const { return impl(*this).stabiliser != nullptr && impl(*this).stabiliser->blind(); }
 uint64_t Capture::integer_hash() const { return impl(*this).hash; }
 std::size_t Capture::bytes_used() const { return impl(*this).bytes_used; }
 int Capture::contour_points_high_water() const {

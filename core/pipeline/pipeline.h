@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/base/limits.h"
+#include "core/base/similarity.h"
 #include "core/base/stage_clock.h"
 #include "core/base/status.h"
 #include "core/frame/frame.h"
@@ -18,6 +19,7 @@
 #include "core/landmarks/order_step.h"
 #include "core/motion/motion.h"
 #include "core/segment/background.h"
+#include "core/stabilise/stabiliser.h"
 
 namespace nt {
 
@@ -25,6 +27,7 @@ inline constexpr int kMostFish = 16;
 
 struct CaptureSettings {
   BackgroundSettings background;
+  Stabilise stabilise = Stabilise::off;
   int u_num = 3;
   int l_num = 15;
   int harmonics = 5;    // S of [F] section 4.3
@@ -49,6 +52,7 @@ enum StepFlag : uint32_t {
   kRelearned = 1u << 4,        // the background was learned anew (a lamp, a moved camera)
   kHeadTailSwapped = 1u << 5,  // the order of head and tail was corrected in this frame
   kShadowRemoved = 1u << 6,    // Otsu took a shadow away
+  kStabilised = 1u << 7,       // the camera's motion was taken out of this frame
 };
 const char* limit_to_raise(StepFlag flag);  // "" for flags that are no limits
 
@@ -103,6 +107,11 @@ class Capture {
   std::span<const Vec2> contour(int fish = kTarget) const;
   std::span<const Vec2> smooth_contour(int fish = kTarget) const;
   const char* background_name() const;
+  // Where the camera has gone since the background was learned: pixels of that first frame -> pixels of the last one. The
+  // identity where the motion is not taken out.
+  const Similarity& camera_motion() const;
+  bool stabilising() const;        // the camera's motion is taken out, from this frame on
+  bool camera_unknowable() const;  // it should be, but the picture has too little texture to see it
   uint64_t integer_hash()
       const;  // of all integer stages of the last step: masks, blobs, contour (settings.fingerprint)
 

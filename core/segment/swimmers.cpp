@@ -106,6 +106,15 @@ void Swimmer::swim_in_heap(const Blob& heap) {
   centroid.y = det::clamp(centroid.y, static_cast<float>(heap.box.y0), static_cast<float>(heap.box.y1));
 }
 
+void Swimmer::change_reference(const Similarity& t) {
+  for (Vec2* p : {&centroid, &first, &last_centroid_}) *p = t(*p);
+  for (Vec2* v : {&velocity, &last_velocity_}) *v = t.turned(*v);
+  const Vec2 middle{0.5f * static_cast<float>(box.x0 + box.x1), 0.5f * static_cast<float>(box.y0 + box.y1)};
+  const Vec2 by = t(middle) - middle;
+  const int dx = static_cast<int>(by.x), dy = static_cast<int>(by.y);
+  box = {box.x0 + dx, box.y0 + dy, box.x1 + dx, box.y1 + dy};
+}
+
 void Swimmer::swim_on() {
   centroid = last_centroid_ + last_velocity_ * static_cast<float>(last_gap_);
   velocity = last_velocity_;

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "core/base/image_view.h"
+#include "core/base/similarity.h"
 #include "core/base/vec2.h"
 #include "core/segment/assign.h"
 #include "core/segment/blobs.h"
@@ -58,6 +59,9 @@ class Swimmer {
   bool observe(const Box& whole, Vec2 centre, float area_px, float axis_len_px, bool touching, int patience);
   // This frame's blob was not it alone: it is taken to have swum on.
   void swim_on();
+
+  // The camera has moved, and places are counted from another frame on: what is remembered goes along.
+  void change_reference(const Similarity& new_from_old);
 
   Vec2 moved() const;      // since it was last seen, by prediction
   float patience() const;  // grows while it is not seen

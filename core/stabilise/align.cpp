@@ -9,7 +9,6 @@ namespace {
 constexpr int kArea = Align::kSide * Align::kSide;
 constexpr int kMostIterations = 8;
 constexpr int kRounds = 3;             // of reweighting in an iteration
-constexpr float kSmallStep = 0.004f;   // small pixels at the corners: the search ends
 constexpr float kAgreement = 0.2f;     // small pixels
 constexpr float kLeastSpread = 0.03f;  // small pixels: the noise of a block's displacement
 // A block's gradients must add up to this, in both directions: one grey level a pixel, in squared sixteenths.
@@ -136,8 +135,8 @@ void Align::measure(Block& block, SmallView picture, const Similarity& t) const 
       const uint16_t* below = at + picture.stride;
       const int fu = u >> 8 & 255, fv = v >> 8 & 255;
       const int top = at[0] * 256 + (at[1] - at[0]) * fu, bottom = below[0] * 256 + (below[1] - below[0]) * fu;
-      const int now = static_cast<int>((static_cast<int64_t>(top) * 256 + static_cast<int64_t>(bottom - top) * fv +
-                                        32768) >> 16);
+      const int now =
+          static_cast<int>((static_cast<int64_t>(top) * 256 + static_cast<int64_t>(bottom - top) * fv + 32768) >> 16);
       const int difference = now - was[i];
       bx += difference * *gx++, by += difference * *gy++;
       sum += difference;
@@ -232,7 +231,7 @@ void Align::judge(Alignment& out) const {
   out.agreeing = out.blocks > 0 ? static_cast<float>(agree) / static_cast<float>(out.blocks) : 0.0f;
 }
 
-Alignment Align::find(SmallView picture, const Similarity& start) {
+Alignment Align::find(SmallView picture, const Similarity& start, float close_enough) {
   Alignment out;
   out.seen_from_reference = start;
   const float reach_x = 0.5f * static_cast<float>(width_), reach_y = 0.5f * static_cast<float>(height_);
@@ -247,12 +246,12 @@ Alignment Align::find(SmallView picture, const Similarity& start) {
     out.left = before > 0 ? total_difference() / before : 1.0f;
     judge(out);
     const float turn = det::abs(static_cast<float>(step[2])) + det::abs(static_cast<float>(step[3]));
-    const float moved = det::abs(static_cast<float>(step[0])) + det::abs(static_cast<float>(step[1])) +
-                        turn * (reach_x + reach_y);
+    const float moved =
+        det::abs(static_cast<float>(step[0])) + det::abs(static_cast<float>(step[1])) + turn * (reach_x + reach_y);
     // The reference's point s is seen where s + J step was looked for.
     const Similarity moved_by{1.0 + step[2], step[3], step[0], step[1]};
     out.seen_from_reference = after(out.seen_from_reference, moved_by.inverse());
-    if (n > 0 && moved < kSmallStep) break;
+    if (moved < close_enough) break;
   }
   out.known = true;
   return out;

@@ -30,7 +30,7 @@ struct Alignment {
 
 class Align {
  public:
-  static constexpr int kSide = 8;         // of a block, small pixels
+  static constexpr int kSide = 8;          // of a block, small pixels
   static constexpr int kFewestBlocks = 8;  // of texture, for any answer
 
   // For small pictures of width x height.
@@ -38,20 +38,21 @@ class Align {
   Align() = default;
 
   void set_reference(SmallView picture);
-  // `start`: where the search begins, best the motion expected.
-  Alignment find(SmallView picture, const Similarity& start);
+  // `start`: where the search begins, best the motion expected. It ends when a step moves no corner by `close_enough`,
+  // small pixels.
+  Alignment find(SmallView picture, const Similarity& start, float close_enough);
   int textured() const { return textured_; }  // blocks of the reference with something to hold on to
 
  private:
   struct Block {
-    float x = 0, y = 0;                // middle, from the picture's middle
-    float xx = 0, xy = 0, yy = 0;      // sum of squared gradients, means taken away
+    float x = 0, y = 0;            // middle, from the picture's middle
+    float xx = 0, xy = 0, yy = 0;  // sum of squared gradients, means taken away
     bool textured = false;
     bool in_view = false;
-    float bx = 0, by = 0;              // gradient times difference
-    float dx = 0, dy = 0;              // the block's own displacement
+    float bx = 0, by = 0;  // gradient times difference
+    float dx = 0, dy = 0;  // the block's own displacement
     float weight = 0;
-    float difference = 0;              // sum of squares, mean taken away
+    float difference = 0;  // sum of squares, mean taken away
   };
   void measure(Block& block, SmallView picture, const Similarity& t) const;
   void look(SmallView picture, const Similarity& t);

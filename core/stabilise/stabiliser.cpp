@@ -15,6 +15,9 @@ constexpr int kPatience = 6;         // frames that may be strange (blurred by a
 // is nothing that a background model minds.
 constexpr float kMoves_px = 0.6f;
 constexpr float kExplained = 0.6f;
+// A camera that has stood still for so many frames is looked at in every kSeldom-th one.
+constexpr int64_t kSettled = 60, kSeldom = 4;
+constexpr float kPrecise = 0.004f;  // small pixels
 
 }  // namespace
 
@@ -64,13 +67,13 @@ void Stabiliser::take_reference() {
   align_->set_reference({small_.data, small_.width, small_.height, small_.stride});
   now_ = before_ = {};
   strange_frames_ = 0;
+  looked_ = 0;
   has_reference_ = true;
 }
 
 // The hand goes on as it went.
 void Stabiliser::predict() {
-  const Similarity next{2 * now_.a - before_.a, 2 * now_.b - before_.b, 2 * now_.x - before_.x,
-                        2 * now_.y - before_.y};
+  const Similarity next{2 * now_.a - before_.a, 2 * now_.b - before_.b, 2 * now_.x - before_.x, 2 * now_.y - before_.y};
   before_ = now_;
   now_ = next;
 }
@@ -85,15 +88,17 @@ Stabilised Stabiliser::give_up(LumaView luma) {
 }
 
 Stabilised Stabiliser::apply(LumaView luma, LumaView background) {
-  shrink(luma, factor_, columns_, small_);
   Stabilised out;
   out.luma = luma;
+  if (has_reference_ && !active_ && ++looked_ > kSettled && looked_ % kSeldom != 0) return out;
+  shrink(luma, factor_, columns_, small_);
   if (!has_reference_) take_reference();
   if (blind()) return out;
   const Similarity last = now_;
   if (active_) predict();
   else now_ = before_ = {};
-  const Alignment found = align_->find({small_.data, small_.width, small_.height, small_.stride}, now_);
+  const float close_enough = active_ ? kPrecise : 0.5f * kMoves_px / static_cast<float>(factor_);
+  const Alignment found = align_->find({small_.data, small_.width, small_.height, small_.stride}, now_, close_enough);
   const bool recognised = found.known && found.agreeing >= kLeastAgreeing;
   const Similarity t = to_frame(found.seen_from_reference);
   if (!active_) {

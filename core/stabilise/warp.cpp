@@ -8,14 +8,14 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kBlock = 8;          // pixels that share one base; both ways of counting agree by it
+constexpr int kBlock = 8;              // pixels that share one base; both ways of counting agree by it
 constexpr double kOne = 4294967296.0;  // 1.0 with 32 fractional bits
 
 // Where a row of `out` lies in the frame: 32 fractional bits, and per pixel 12.
 struct Line {
-  int64_t u = 0, v = 0;          // of the block's first pixel
+  int64_t u = 0, v = 0;            // of the block's first pixel
   int64_t step_u = 0, step_v = 0;  // a pixel
-  int du = 0, dv = 0;            // a pixel inside a block, 12 fractional bits
+  int du = 0, dv = 0;              // a pixel inside a block, 12 fractional bits
 };
 
 Line line_of(const Similarity& t, int y) {
@@ -85,10 +85,10 @@ void warp_block(LumaView luma, const Base& base, const Line& line, uint8_t* out)
   const hn::FixedTag<uint8_t, 16> bytes;
   const hn::FixedTag<uint8_t, 8> half_bytes;
   const auto lane = hn::Iota(d, 0);
-  const auto ru = hn::Add(hn::Set(d, static_cast<uint16_t>(base.fu)),
-                          hn::Mul(lane, hn::Set(d, static_cast<uint16_t>(line.du))));
-  const auto rv = hn::Add(hn::Set(d, static_cast<uint16_t>(base.fv)),
-                          hn::Mul(lane, hn::Set(d, static_cast<uint16_t>(line.dv))));
+  const auto ru =
+      hn::Add(hn::Set(d, static_cast<uint16_t>(base.fu)), hn::Mul(lane, hn::Set(d, static_cast<uint16_t>(line.du))));
+  const auto rv =
+      hn::Add(hn::Set(d, static_cast<uint16_t>(base.fv)), hn::Mul(lane, hn::Set(d, static_cast<uint16_t>(line.dv))));
   const auto fifteen = hn::Set(d, uint16_t{15});
   const auto fx = hn::BitCast(s, hn::And(hn::ShiftRight<8>(ru), fifteen));
   const auto fy = hn::BitCast(s, hn::And(hn::ShiftRight<8>(rv), fifteen));

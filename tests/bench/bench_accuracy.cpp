@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_accuracy [--scenes A,B] [--seeds N] [--frames N] [--size WxH] [--background NAME] [--odd] [--json]
+// bench_accuracy [--scenes A,B] [--seeds N] [--frames N] [--size WxH] [--background NAME] [--stabilise MODE] [--odd]
+// [--json]
 // Capture over the simulated tank, scored against its truth, one row per scene. --odd lists the frames to look at.
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +28,7 @@ struct Options {
 [[noreturn]] void usage(const char* why) {
   std::fprintf(stderr,
                "bench_accuracy: %s\nusage: bench_accuracy [--scenes A,B] [--seeds N] [--frames N] [--size WxH] "
-               "[--background vibe|still|backlit] [--odd] [--json]\n",
+               "[--background vibe|still|backlit] [--stabilise off|on|auto] [--odd] [--json]\n",
                why);
   std::exit(2);
 }
@@ -49,6 +50,13 @@ nt::BackgroundKind background_kind(const std::string& name) {
   usage("no such background model");
 }
 
+nt::Stabilise stabilise_mode(const std::string& name) {
+  if (name == "off") return nt::Stabilise::off;
+  if (name == "on") return nt::Stabilise::on;
+  if (name == "auto") return nt::Stabilise::automatic;
+  usage("--stabilise takes off, on or auto");
+}
+
 Options parse(int argc, char** argv) {
   Options o;
   for (int i = 1; i < argc; ++i) {
@@ -60,6 +68,7 @@ Options parse(int argc, char** argv) {
     else if (key == "--seeds") o.seeds = std::atoi(argv[++i]);
     else if (key == "--frames") o.run.frames = std::atoi(argv[++i]);
     else if (key == "--background") o.run.capture.background.kind = background_kind(argv[++i]);
+    else if (key == "--stabilise") o.run.capture.stabilise = stabilise_mode(argv[++i]);
     else if (key == "--size") {
       if (std::sscanf(argv[++i], "%dx%d", &o.run.tank.width, &o.run.tank.height) != 2) usage("--size takes WxH");
     } else usage("an option is unknown");

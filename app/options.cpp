@@ -90,6 +90,17 @@ SelectOption parse_select(const std::string& text) {
   return select;
 }
 
+Stabilise parse_stabilise(const std::string& text) {
+  for (const Stabilise mode : {Stabilise::off, Stabilise::on, Stabilise::automatic})
+    if (text == to_string(mode)) return mode;
+  throw UserError("--stabilise must be off, on or auto, not '" + text + "'", 2);
+}
+
+const char* to_string(Stabilise mode) {
+  constexpr const char* kNames[] = {"off", "on", "auto"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
 void add_capture_options(CLI::App& command, CaptureOptions& o) {
   // CLI11 would print a default through operator<<; these options show theirs in the text instead.
   const auto text = [&command](const char* name, auto&& take, const char* type, const char* help) {
@@ -135,6 +146,10 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
   text(
       "--max-size", [&o](const std::string& s) { o.area.max_size = parse_integer("--max-size", s, 1, 1'000'000'000); },
       "N", "more pixels than this are no fish (default: no limit)");
+  text(
+      "--stabilise", [&o](const std::string& s) { o.stabilise = parse_stabilise(s); }, "MODE",
+      "a camera held in the hand: on takes its motion out, off does not look, auto (default) looks and takes it out "
+      "once the camera moves");
   text(
       "--harmonics",
       [&o](const std::string& s) { o.harmonics = static_cast<int>(parse_integer("--harmonics", s, 1, 16)); }, "N",

@@ -11,6 +11,7 @@
 #include "app/camera_spec.h"
 #include "app/numbers.h"
 #include "core/base/vec2.h"
+#include "core/stabilise/stabiliser.h"
 
 namespace CLI {
 class App;
@@ -47,6 +48,9 @@ struct AreaOptions {
 // Corners "x,y" in order, three at least, or the path of one picture.
 void parse_tank(const std::vector<std::string>& words, AreaOptions& area);
 
+Stabilise parse_stabilise(const std::string& text);  // off | on | auto
+const char* to_string(Stabilise mode);
+
 struct CaptureOptions {
   CameraSpec camera;
   std::optional<Size> work;  // unset: 960x544
@@ -56,6 +60,7 @@ struct CaptureOptions {
   SelectOption select;
   AreaOptions area;
   int max_fish = 1;
+  Stabilise stabilise = Stabilise::automatic;
   int harmonics = 5;
   uint64_t seed = 1;
 };

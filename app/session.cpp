@@ -50,7 +50,9 @@ void end_on_interrupt() {
 }
 
 Session::Session(const CaptureOptions& options)
-    : camera_(open_camera(options.camera, options.work, options.fps)), frames_wanted_(options.frames) {
+    : camera_(open_camera(options.camera, options.work, options.fps)),
+      frames_wanted_(options.frames),
+      stabilise_(options.stabilise) {
   if (info().width < kSmallestSide || info().height < kSmallestSide) {
     throw UserError(info().name + ": frames of " + std::to_string(info().width) + "x" + std::to_string(info().height) +
                     " pixels are too small; at least 32x32 are needed to see a fish");
@@ -86,6 +88,11 @@ BackgroundKind Session::choose_model(const CaptureOptions& options) {
     case Kind::automatic:
       break;
   }
+  if (options.stabilise == Stabilise::on) {
+    // The test below compares pixels over time, which a moving camera makes meaningless.
+    why_ = "a moving camera";
+    return BackgroundKind::vibe;
+  }
   const BackgroundChoice choice = choose_background(spread_frames(*camera_));
   why_ = choice.why;
   announcement_ = std::string("background: ") + model_name(choice.kind) + " (" + why_ + ")";
@@ -98,6 +105,7 @@ void Session::create_capture(const CaptureOptions& options, BackgroundKind kind)
   limits.max_height = info().height;
   CaptureSettings settings;
   settings.background.kind = kind;
+  settings.stabilise = options.stabilise;
   settings.harmonics = options.harmonics;
   settings.seed = options.seed;
   settings.max_fish = options.max_fish;
@@ -138,6 +146,24 @@ void Session::count_gap(const Frame& frame) {
   statistics_.dropped += static_cast<int64_t>(frame.sequence - frame_.sequence - 1);
 }
 
+// Once, when it begins or when it cannot.
+void Session::tell_stabilising() {
+  if (told_stabilising_ || stabilise_ == Stabilise::off) return;
+  if (capture_->stabilising() && capture_->camera_unknowable()) {
+    std::fprintf(stderr,
+                 "stabilise: the picture has too little texture to see the camera move; frames are used as they are\n");
+  } else if ((report_.flags & kStabilised) != 0) {
+    std::fprintf(stderr,
+                 stabilise_ == Stabilise::on ? "stabilise: the camera's motion is taken out\n"
+                                             : "stabilise: the camera moves (frame %lld); its motion is taken out "
+                                               "from here on\n",
+                 static_cast<long long>(frame_index()));
+  } else {
+    return;
+  }
+  told_stabilising_ = true;
+}
+
 bool Session::step() {
   if (interrupted() || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
   const std::optional<Frame> next = camera_->next();
@@ -155,6 +181,7 @@ bool Session::step() {
   statistics_.add(report_);
   for (int i = 0; i < capture_->fish_count(); ++i)
     statistics_.poses_of_fish[static_cast<std::size_t>(i)] += capture_->pose(i).ok();
+  tell_stabilising();
   return true;
 }
 

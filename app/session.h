@@ -35,6 +35,7 @@ class Session {
   float scale() const;  // source width / working width
   int64_t frame_index() const { return statistics_.frames - 1; }
   const std::string& background_why() const { return why_; }
+  Stabilise stabilise() const { return stabilise_; }  // as asked for
   std::size_t core_bytes() const { return memory_.bytes().size(); }
 
  private:
@@ -44,6 +45,7 @@ class Session {
   int working_area(int64_t source_px) const;
   void learn(const CaptureOptions& options, BackgroundKind kind);
   void count_gap(const Frame& frame);
+  void tell_stabilising();
 
   std::unique_ptr<Camera> camera_;
   AlignedBlock memory_;
@@ -52,6 +54,8 @@ class Session {
   Frame frame_;
   StepReport report_;
   Statistics statistics_;
+  Stabilise stabilise_ = Stabilise::off;
+  bool told_stabilising_ = false;
   std::string why_;
   std::string announcement_;  // of the background that auto chose, until the first frame
 };

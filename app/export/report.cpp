@@ -63,6 +63,7 @@ Json report_json(Session& session) {
       {"name", info.name}, {"width", info.source_width}, {"height", info.source_height}, {"fps", info.fps}};
   json["working_size"] = {{"width", info.width}, {"height", info.height}};
   json["background"] = {{"name", session.capture().background_name()}, {"why", session.background_why()}};
+  json["stabilise"] = {{"mode", to_string(session.stabilise())}, {"active", session.capture().stabilising()}};
   json["frames"] = statistics.frames;
   json["frames_with_pose"] = statistics.poses;
   json["fish"] = fish_json(session);

@@ -14,6 +14,8 @@ constexpr float kLeastSpread = 0.03f;  // small pixels: the noise of a block's d
 // A block's gradients must add up to this, in both directions: one grey level a pixel, in squared sixteenths.
 constexpr float kTexture = 256.0f * kArea;
 constexpr float kOne = 65536.0f;
+constexpr int kReach = 10;  // small pixels that a jolt may shift the picture
+constexpr int kEvery = 3;   // of rows and columns that are compared in a search
 
 // Gaussian elimination of four equations; the matrix is symmetric and, with a few blocks, positive definite.
 bool solve4(double m[4][5], double out[4]) {
@@ -229,6 +231,37 @@ void Align::judge(Alignment& out) const {
   for (const Block& block : blocks_)
     if (block.textured && block.in_view) agree += length_sq({block.dx, block.dy}) < kAgreement * kAgreement;
   out.agreeing = out.blocks > 0 ? static_cast<float>(agree) / static_cast<float>(out.blocks) : 0.0f;
+}
+
+Similarity Align::search(SmallView picture, const Similarity& start) const {
+  const Vec2 middle{0.5f * static_cast<float>(width_ - 1), 0.5f * static_cast<float>(height_ - 1)};
+  Similarity best = start;
+  float least = 0;
+  bool found = false;
+  for (int dy = -kReach; dy <= kReach; ++dy)
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      Similarity t = start;
+      t.x += dx, t.y += dy;
+      // Differences of neighbours, so that light does not matter.
+      int64_t sum = 0;
+      int count = 0;
+      for (int y = 1; y + 1 < height_; y += kEvery)
+        for (int x = 1; x + 1 < width_; x += kEvery) {
+          const Vec2 p = t(Vec2{static_cast<float>(x), static_cast<float>(y)} - middle) + middle;
+          const int u = static_cast<int>(p.x + 0.5f), v = static_cast<int>(p.y + 0.5f);
+          if (p.x < 0 || p.y < 0 || u + 1 >= width_ || v + 1 >= height_) continue;
+          const uint16_t* was = reference_.data() + y * width_ + x;
+          const uint16_t* now = picture.row(v) + u;
+          const int across = (now[1] - now[0]) - (was[1] - was[0]);
+          const int down = (now[picture.stride] - now[0]) - (was[width_] - was[0]);
+          sum += (across < 0 ? -across : across) + (down < 0 ? -down : down);
+          ++count;
+        }
+      const float mean = static_cast<float>(sum) / static_cast<float>(max_int(count, 1));
+      if (count * kEvery * kEvery < width_ * height_ / 2 || (found && mean >= least)) continue;
+      least = mean, best = t, found = true;
+    }
+  return best;
 }
 
 Alignment Align::find(SmallView picture, const Similarity& start, float close_enough) {

@@ -7,7 +7,8 @@
 // plants and of what was a fish in the reference disagree and lose their weight.
 // Differs: the blocks' normal equations are kept apart, so that outliers are judged in pixels and not in grey levels.
 // Frame of reference: pixels of the small pictures, origin at their middle.
-// Memory: 8 bytes a small pixel and 80 a block. Cost: about 0.04 ms an iteration at 120x68; 2 to 6 iterations.
+// Memory: 8 bytes a small pixel and 80 a block. Cost: about 0.04 ms an iteration at 120x68; 2 to 6 iterations. A search
+// costs about 0.5 ms; only frames that are not recognised need one.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -41,6 +42,8 @@ class Align {
   // `start`: where the search begins, best the motion expected. It ends when a step moves no corner by `close_enough`,
   // small pixels.
   Alignment find(SmallView picture, const Similarity& start, float close_enough);
+  // After a jolt: `start`, shifted by whole small pixels to where the picture looks most like the reference.
+  Similarity search(SmallView picture, const Similarity& start) const;
   int textured() const { return textured_; }  // blocks of the reference with something to hold on to
 
  private:

@@ -98,8 +98,11 @@ Stabilised Stabiliser::apply(LumaView luma, LumaView background) {
   if (active_) predict();
   else now_ = before_ = {};
   const float close_enough = active_ ? kPrecise : 0.5f * kMoves_px / static_cast<float>(factor_);
-  const Alignment found = align_->find({small_.data, small_.width, small_.height, small_.stride}, now_, close_enough);
-  const bool recognised = found.known && found.agreeing >= kLeastAgreeing;
+  const SmallView picture{small_.data, small_.width, small_.height, small_.stride};
+  Alignment found = align_->find(picture, now_, close_enough);
+  const auto recognises = [](const Alignment& a) { return a.known && a.agreeing >= kLeastAgreeing; };
+  if (active_ && !recognises(found)) found = align_->find(picture, align_->search(picture, last), close_enough);
+  const bool recognised = recognises(found);
   const Similarity t = to_frame(found.seen_from_reference);
   if (!active_) {
     active_ = recognised && corner_shift(t) > kMoves_px && found.left < kExplained;

@@ -41,6 +41,14 @@ TEST(Alloc, NoneInTenThousandFrames) {
   EXPECT_GT(poses, 5000) << "most frames must have gone through every stage";
 }
 
+TEST(Alloc, NoneWithACameraInTheHand) {
+  int poses = 0;
+  nt::CaptureSettings capture;
+  capture.stabilise = nt::Stabilise::on;
+  EXPECT_EQ(allocations_after_frame_0({.scene = "shake", .width = 320, .height = 180}, 1500, poses, capture), 0);
+  EXPECT_GT(poses, 700);
+}
+
 TEST(Alloc, NoneAtTheDefaultSize) {
   int poses = 0;
   EXPECT_EQ(allocations_after_frame_0({}, 10000, poses), 0);

@@ -17,6 +17,7 @@
 #include "platform/sim/tank.h"
 #include "tests/bench/accuracy.h"
 #include "tests/bench/opencv_chain.h"
+#include "tests/bench/opencv_stabilise.h"
 #include "tests/support/block.h"
 
 namespace {
@@ -85,10 +86,11 @@ std::vector<cv::Mat> film(const Options& o) {
   return frames;
 }
 
-Timing time_ours(const Options& o, const std::vector<cv::Mat>& frames) {
+Timing time_ours(const Options& o, const std::vector<cv::Mat>& frames, nt::Stabilise stabilise) {
   nt::Limits limits;
   limits.max_width = o.tank.width, limits.max_height = o.tank.height;
-  const nt::CaptureSettings settings;
+  nt::CaptureSettings settings;
+  settings.stabilise = stabilise;
   const nt::test::Block block(nt::Capture::bytes_needed(limits, settings));
   auto made = nt::Capture::create(block.span(), limits, settings, o.tank.width, o.tank.height);
   if (!made.ok()) throw std::runtime_error(made.status().message);
@@ -101,6 +103,29 @@ Timing time_ours(const Options& o, const std::vector<cv::Mat>& frames) {
     frame.timestamp_ns = static_cast<int64_t>(1e9 * n / o.tank.fps);
     const nt::StepReport report = made.value()->step(frame, now_ns);
     if (n >= o.warm_up) timing.add(report.times, made.value()->pose().ok());
+  }
+  return timing;
+}
+
+// A camera in the hand, on frames of its own: what --stabilise on adds, against the OpenCV calls that do the same.
+struct HandTiming {
+  Timing ours;
+  std::vector<float> opencv_us;
+  double ours_us() const { return ours.median(static_cast<std::size_t>(Stage::stabilise)); }
+  double opencv_median_us() const { return nt::test::quantile(opencv_us, 0.5); }
+};
+
+HandTiming time_hand(Options o) {
+  o.tank.scene = "shake";
+  o.frames = std::min(o.frames, 100);
+  o.warm_up = std::min(o.warm_up, 20);
+  const std::vector<cv::Mat> frames = film(o);
+  HandTiming timing{time_ours(o, frames, nt::Stabilise::on), {}};
+  nt::test::OpenCvStabiliser theirs(frames[0]);
+  for (std::size_t n = 1; n < frames.size(); ++n) {
+    const int64_t before_ns = now_ns();
+    theirs.step(frames[n]);
+    if (static_cast<int>(n) >= o.warm_up) timing.opencv_us.push_back(static_cast<float>(now_ns() - before_ns) * 1e-3f);
   }
   return timing;
 }
@@ -125,14 +150,27 @@ std::string machine() {
 }
 
 const char* opencv_call(std::size_t stage) {
-  static const char* const kCalls[kStages] = {
-      "BackgroundSubtractor*::apply", "morphologyEx 3x3", "connectedComponentsWithStats",
-      "the largest component",        "threshold, Otsu",  "findContours",
-      "PCA, std::cos, std::vector",   "std::atan2"};
+  static const char* const kCalls[kStages] = {"none: the camera stands still",
+                                              "BackgroundSubtractor*::apply",
+                                              "morphologyEx 3x3",
+                                              "connectedComponentsWithStats",
+                                              "the largest component",
+                                              "threshold, Otsu",
+                                              "findContours",
+                                              "PCA, std::cos, std::vector",
+                                              "std::atan2"};
   return kCalls[stage];
 }
 
-void print_table(const Options& o, const Timing& ours, const Timing& mog2, const Timing& knn) {
+void print_hand(const HandTiming& hand, const Timing& mog2) {
+  std::printf(
+      "%-12s %9.1f %9.1f %8.1f   goodFeaturesToTrack, calcOpticalFlowPyrLK, estimateAffinePartial2D, warpAffine\n",
+      "stabilise on", hand.ours_us(), hand.opencv_median_us(), hand.opencv_median_us() / hand.ours_us());
+  std::printf("that is %.3f of the OpenCV chain's total (scene shake, %d frames, %d with a pose)\n\n",
+              hand.ours_us() / mog2.median(), static_cast<int>(hand.ours.total.size()), hand.ours.poses);
+}
+
+void print_table(const Options& o, const Timing& ours, const Timing& mog2, const Timing& knn, const HandTiming& hand) {
   std::printf("%s, g++ %s, Highway %s, OpenCV %s on one thread; %dx%d, scene %s, %d frames; medians in us\n\n",
               machine().c_str(), __VERSION__, nt::simd_target(), CV_VERSION, o.tank.width, o.tank.height,
               o.tank.scene.c_str(), o.frames);
@@ -147,6 +185,7 @@ void print_table(const Options& o, const Timing& ours, const Timing& mog2, const
               knn.median() / ours.median(), knn.median(0));
   std::printf("poses in %d frames: ours %d, OpenCV %d with MOG2, %d with KNN\n\n", o.frames, ours.poses, mog2.poses,
               knn.poses);
+  print_hand(hand, mog2);
   const auto sum = [&](const Timing& t, Stage first, Stage last) {
     double ms = 0;
     for (auto s = static_cast<std::size_t>(first); s <= static_cast<std::size_t>(last); ++s) ms += t.median(s) * 1e-3;
@@ -161,7 +200,7 @@ void print_table(const Options& o, const Timing& ours, const Timing& mog2, const
   row("feature extraction", Stage::outline, Stage::motion, " 6.34");
 }
 
-void print_json(const Options& o, const Timing& ours, const Timing& mog2, const Timing& knn) {
+void print_json(const Options& o, const Timing& ours, const Timing& mog2, const Timing& knn, const HandTiming& hand) {
   std::printf("{\"machine\": \"%s\", \"compiler\": \"g++ %s\", \"simd\": \"%s\", \"opencv\": \"%s\",\n",
               machine().c_str(), __VERSION__, nt::simd_target(), CV_VERSION);
   std::printf(" \"width\": %d, \"height\": %d, \"scene\": \"%s\", \"frames\": %d, \"stages_us\": {\n", o.tank.width,
@@ -173,6 +212,8 @@ void print_json(const Options& o, const Timing& ours, const Timing& mog2, const 
   std::printf(" \"total_us\": {\"ours\": %.2f, \"mog2\": %.2f, \"knn\": %.2f},\n", ours.median(), mog2.median(),
               knn.median());
   std::printf(" \"poses\": {\"ours\": %d, \"mog2\": %d, \"knn\": %d},\n", ours.poses, mog2.poses, knn.poses);
+  std::printf(" \"stabilise_on_us\": {\"ours\": %.2f, \"opencv\": %.2f, \"of_mog2_total\": %.4f},\n", hand.ours_us(),
+              hand.opencv_median_us(), hand.ours_us() / mog2.median());
   std::printf(" \"ratio\": %.2f}\n", std::min(mog2.median(), knn.median()) / ours.median());
 }
 
@@ -182,10 +223,11 @@ int main(int argc, char** argv) try {
   const Options o = parse(argc, argv);
   cv::setNumThreads(1);
   const std::vector<cv::Mat> frames = film(o);
-  const Timing ours = time_ours(o, frames);
+  const Timing ours = time_ours(o, frames, nt::Stabilise::off);
   const Timing mog2 = time_opencv(o, frames, nt::test::OpenCvModel::mog2);
   const Timing knn = time_opencv(o, frames, nt::test::OpenCvModel::knn);
-  (o.json ? print_json : print_table)(o, ours, mog2, knn);
+  const HandTiming hand = time_hand(o);
+  (o.json ? print_json : print_table)(o, ours, mog2, knn, hand);
   return 0;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "bench_capture: %s\n", e.what());

@@ -36,6 +36,29 @@ TEST_P(AccuracyTest, KeepsItsPromise) {
   EXPECT_GE(sum.fin_precision(), 0.99);
 }
 
+TEST(AccuracyOfAHandheldCamera, KeepsItsPromise) {
+  for (const nt::Stabilise mode : {nt::Stabilise::on, nt::Stabilise::automatic}) {
+    Accuracy sum;
+    for (const uint64_t seed : {1, 2, 3}) {
+      nt::test::AccuracyRun run;
+      run.tank.scene = "shake";
+      run.tank.seed = seed;
+      run.capture.stabilise = mode;
+      run.frames = 400;
+      sum.add(nt::test::measure_accuracy(run));
+    }
+    ASSERT_GT(sum.visible, 400);
+    EXPECT_GE(sum.pose_share(), 0.99);
+    EXPECT_EQ(sum.wrong_end, 0);
+    EXPECT_EQ(sum.false_poses, 0);
+    EXPECT_LE(quantile(sum.midline, 0.5), 0.14);
+    EXPECT_LE(quantile(sum.head, 0.5), 0.45);
+    EXPECT_LE(quantile(sum.tail, 0.5), 0.45);
+    EXPECT_LE(quantile(sum.fin_tip, 0.5), 0.5);
+    EXPECT_GE(sum.fin_precision(), 0.99);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest, testing::Values("calm", "turns", "hover", "forked", "round"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -27,7 +27,7 @@ inline constexpr int kMostFish = 16;
 
 struct CaptureSettings {
   BackgroundSettings background;
-  Stabilise stabilise = Stabilise::off;
+  Stabilise stabilise = Stabilise::automatic;
   int u_num = 3;
   int l_num = 15;
   int harmonics = 5;    // S of [F] section 4.3

@@ -118,7 +118,6 @@ struct HandTiming {
 HandTiming time_hand(Options o) {
   o.tank.scene = "shake";
   o.frames = std::min(o.frames, 100);
-  o.warm_up = std::min(o.warm_up, 20);
   const std::vector<cv::Mat> frames = film(o);
   HandTiming timing{time_ours(o, frames, nt::Stabilise::on), {}};
   nt::test::OpenCvStabiliser theirs(frames[0]);
@@ -182,7 +181,7 @@ void print_table(const Options& o, const Timing& ours, const Timing& mog2, const
   std::printf("%-12s %9.1f %9.1f %8.1f   with MOG2\n", "total", ours.median(), mog2.median(),
               mog2.median() / ours.median());
   std::printf("%-12s %9.1f %9.1f %8.1f   with KNN (background alone: %.1f)\n", "", ours.median(), knn.median(),
-              knn.median() / ours.median(), knn.median(0));
+              knn.median() / ours.median(), knn.median(static_cast<std::size_t>(Stage::background)));
   std::printf("poses in %d frames: ours %d, OpenCV %d with MOG2, %d with KNN\n\n", o.frames, ours.poses, mog2.poses,
               knn.poses);
   print_hand(hand, mog2);
@@ -223,7 +222,7 @@ int main(int argc, char** argv) try {
   const Options o = parse(argc, argv);
   cv::setNumThreads(1);
   const std::vector<cv::Mat> frames = film(o);
-  const Timing ours = time_ours(o, frames, nt::Stabilise::off);
+  const Timing ours = time_ours(o, frames, nt::CaptureSettings{}.stabilise);
   const Timing mog2 = time_opencv(o, frames, nt::test::OpenCvModel::mog2);
   const Timing knn = time_opencv(o, frames, nt::test::OpenCvModel::knn);
   const HandTiming hand = time_hand(o);

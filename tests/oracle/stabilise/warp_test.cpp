@@ -34,7 +34,7 @@ TEST(WarpOracle, IsWarpAffine) {
     cv::warpAffine(from, theirs, to_frame, from.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     cv::warpAffine(cv::Mat(from.size(), CV_8U, cv::Scalar(255)), known, to_frame, from.size(),
                    cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
-    cv::erode(known, known, cv::Mat(), {-1, -1}, 3);
+    cv::erode(known, known, cv::Mat(), {-1, -1}, 3, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::Mat difference;
     cv::absdiff(ours, theirs, difference);
     double most = 0;

@@ -101,6 +101,29 @@ const char* to_string(Stabilise mode) {
   return kNames[static_cast<std::size_t>(mode)];
 }
 
+namespace {
+
+void add_calibration_options(CLI::App& command, CaptureOptions& o) {
+  const auto text = [&command](const char* name, auto&& take, const char* type, const char* help) {
+    command.add_option_function<std::string>(name, take, help)->type_name(type)->option_text(type);
+  };
+  text(
+      "--scale-points", [&o](const std::string& s) { o.scale_points = parse_scale_points(s); }, "X1,Y1,X2,Y2",
+      "two points of the source video whose distance is known (--scale-mm): poses in millimetres too");
+  text(
+      "--scale-mm", [&o](const std::string& s) { o.scale_mm = parse_number("--scale-mm", s, 0.001, 1e6); }, "L",
+      "how far these two points lie apart, millimetres");
+  text(
+      "--marker-mm", [&o](const std::string& s) { o.marker_mm = parse_number("--marker-mm", s, 0.1, 1e5); }, "SIDE",
+      "a printed AprilTag (family 36h11) lies in the picture: the side of its black square, millimetres");
+  text(
+      "--lens", [&o](const std::string& s) { o.lens = s; }, "FILE",
+      "the lens' distortion, as OpenCV's calibration writes it or as lines `fx 900`: points are corrected, the picture "
+      "is not");
+}
+
+}  // namespace
+
 void add_capture_options(CLI::App& command, CaptureOptions& o) {
   // CLI11 would print a default through operator<<; these options show theirs in the text instead.
   const auto text = [&command](const char* name, auto&& take, const char* type, const char* help) {
@@ -160,10 +183,11 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
         o.seed = static_cast<uint64_t>(parse_integer("--seed", s, 0, std::numeric_limits<int64_t>::max()));
       },
       "N", "of the background model's random choices; the same seed gives the same result (default 1)");
+  add_calibration_options(command, o);
 }
 
 std::vector<std::string> inputs_of(const CaptureOptions& options) {
-  return {options.camera.path, options.background.picture, options.area.picture};
+  return {options.camera.path, options.background.picture, options.area.picture, options.lens};
 }
 
 }  // namespace nt

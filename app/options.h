@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calibration.h"
 #include "app/camera_spec.h"
 #include "app/numbers.h"
 #include "core/base/vec2.h"
@@ -63,6 +64,9 @@ struct CaptureOptions {
   Stabilise stabilise = Stabilise::automatic;
   int harmonics = 5;
   uint64_t seed = 1;
+  std::string lens;  // a file; "" = none
+  std::optional<ScalePoints> scale_points;
+  double scale_mm = 0, marker_mm = 0;  // 0: not given
 };
 void add_capture_options(CLI::App& command, CaptureOptions& options);
 

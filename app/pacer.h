@@ -16,16 +16,23 @@ class Pacer {
   explicit Pacer(int64_t period_ns) : period_ns_(period_ns > 0 ? period_ns : 1) {}
   int64_t period_ns() const { return period_ns_; }
   void start(int64_t now_ns) { due_ns_ = now_ns; }
+  int64_t due_ns() const { return due_ns_; }
   bool due(int64_t now_ns) const { return now_ns >= due_ns_; }
+  // How many take() would pass over.
+  int64_t skips(int64_t now_ns) const {
+    const int64_t late = periods_late(now_ns);
+    return late > kMostSkips ? kMostSkips : late;
+  }
   // A frame is taken now; returns how many to pass over before it.
   int take(int64_t now_ns) {
-    const int64_t late = now_ns > due_ns_ ? (now_ns - due_ns_) / period_ns_ : 0;
+    const int64_t late = periods_late(now_ns);
     const bool hopeless = late > kMostSkips;
     due_ns_ = (hopeless ? now_ns : due_ns_ + late * period_ns_) + period_ns_;
     return hopeless ? kMostSkips : static_cast<int>(late);
   }
 
  private:
+  int64_t periods_late(int64_t now_ns) const { return now_ns > due_ns_ ? (now_ns - due_ns_) / period_ns_ : 0; }
   int64_t period_ns_;
   int64_t due_ns_ = 0;
 };

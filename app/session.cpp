@@ -5,20 +5,24 @@
 #include <csignal>
 #include <cstdio>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgcodecs.hpp>  // its constants alone
 #include <opencv2/imgproc.hpp>
 
 #include "app/author/choose_background.h"
 #include "app/export/pose_csv.h"
+#include "app/marker.h"
 #include "app/tank_mask.h"
+#include "platform/codecs.h"
 #include "platform/linux/clock.h"
 #include "platform/linux/heap_count.h"
+#include "platform/linux/process_memory.h"
 
 namespace nt {
 namespace {
 
 volatile std::sig_atomic_t stop_asked = 0;
 
+constexpr int kMarkerFrames = 60;  // the marker must be seen in one of the first so many
 constexpr int kSmallestSide = 32;  // an outline needs some 16 points
 
 Frame frame_of(const cv::Mat& luma) {
@@ -28,7 +32,7 @@ Frame frame_of(const cv::Mat& luma) {
 }
 
 cv::Mat read_tank_picture(const std::string& path, const CameraInfo& info) {
-  const cv::Mat picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  const cv::Mat picture = codecs().read_picture(path, cv::IMREAD_GRAYSCALE);
   if (picture.empty()) throw UserError("--background still: cannot read the picture " + path);
   cv::Mat fitted;
   cv::resize(picture, fitted, {info.width, info.height}, 0, 0, cv::INTER_AREA);
@@ -57,10 +61,34 @@ Session::Session(const CaptureOptions& options)
     throw UserError(info().name + ": frames of " + std::to_string(info().width) + "x" + std::to_string(info().height) +
                     " pixels are too small; at least 32x32 are needed to see a fish");
   }
+  calibrate(options);
   const BackgroundKind kind = choose_model(options);
   create_capture(options, kind);
   learn(options, kind);
   if (!options.select.automatic) select(options.select.at);
+}
+
+void Session::calibrate(const CaptureOptions& options) {
+  if (!options.lens.empty()) calibration_.lens = read_lens(options.lens, info().source_width, info().source_height);
+  if (options.scale_points.has_value() != (options.scale_mm > 0))
+    throw UserError("--scale-points and --scale-mm go together: two points, and how far they lie apart", 2);
+  if (options.scale_points && options.marker_mm > 0)
+    throw UserError("--scale-points and --marker-mm both give the scale; choose one", 2);
+  if (options.scale_points) calibration_.set_scale(*options.scale_points, options.scale_mm);
+  if (options.marker_mm <= 0) return;
+  for (int n = 0; n < kMarkerFrames && calibration_.px_per_mm <= 0; ++n) {
+    const std::optional<Frame> frame = camera_->next();
+    if (!frame) break;
+    std::optional<std::array<Vec2, 4>> corners = find_marker(frame->luma);
+    if (!corners) continue;
+    for (Vec2& corner : *corners) corner = to_source(corner, scale());
+    calibration_.set_scale(*corners, options.marker_mm);
+  }
+  if (calibration_.px_per_mm <= 0)
+    throw UserError(
+        "--marker-mm: no AprilTag of family 36h11 is seen in the first frames; lay it flat, in the light, some 40 "
+        "pixels wide, with its white rim");
+  camera_->rewind();
 }
 
 void Session::select(Vec2 at) {
@@ -164,7 +192,7 @@ void Session::tell_stabilising() {
   told_stabilising_ = true;
 }
 
-bool Session::step() {
+bool Session::step(std::optional<int64_t> due_ns) {
   if (interrupted() || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
   const std::optional<Frame> next = camera_->next();
   if (!next) return false;
@@ -178,9 +206,11 @@ bool Session::step() {
     report_ = capture_->step(frame_, &steady_now_ns);
     if (statistics_.frames > 0) statistics_.allocations_after_frame_0 += heap.allocations();
   }
+  if (due_ns) statistics_.latency.add(steady_now_ns() - *due_ns);
   statistics_.add(report_);
   for (int i = 0; i < capture_->fish_count(); ++i)
     statistics_.poses_of_fish[static_cast<std::size_t>(i)] += capture_->pose(i).ok();
+  if (statistics_.frames == 1) statistics_.rss_start_bytes = resident_bytes();
   tell_stabilising();
   return true;
 }

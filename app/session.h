@@ -5,9 +5,11 @@
 // Frame of reference: pixels of the working frame; `scale()` leads back to the source video.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/aligned_block.h"
+#include "app/calibration.h"
 #include "app/options.h"
 #include "app/statistics.h"
 #include "core/pipeline/pipeline.h"
@@ -22,7 +24,8 @@ class Session {
   explicit Session(const CaptureOptions& options);
 
   // The next frame goes through capture; false at the end of the video or of --frames, or when the user interrupts.
-  bool step();
+  // `due_ns`: when the camera had it, by the steady clock; then the time from there to the motion is counted as latency.
+  bool step(std::optional<int64_t> due_ns = {});
   // Passes a frame over; the next step counts it as dropped. False at the end.
   bool skip() { return camera_->next().has_value(); }
 
@@ -33,6 +36,7 @@ class Session {
   const Statistics& statistics() const { return statistics_; }
   const CameraInfo& info() const { return camera_->info(); }
   float scale() const;  // source width / working width
+  const Calibration& calibration() const { return calibration_; }
   int64_t frame_index() const { return statistics_.frames - 1; }
   const std::string& background_why() const { return why_; }
   Stabilise stabilise() const { return stabilise_; }  // as asked for
@@ -45,6 +49,7 @@ class Session {
   int working_area(int64_t source_px) const;
   void learn(const CaptureOptions& options, BackgroundKind kind);
   void count_gap(const Frame& frame);
+  void calibrate(const CaptureOptions& options);
   void tell_stabilising();
 
   std::unique_ptr<Camera> camera_;
@@ -56,6 +61,7 @@ class Session {
   Statistics statistics_;
   Stabilise stabilise_ = Stabilise::off;
   bool told_stabilising_ = false;
+  Calibration calibration_;
   std::string why_;
   std::string announcement_;  // of the background that auto chose, until the first frame
 };

@@ -13,6 +13,7 @@ void TimeHistogram::add(int64_t ns) {
   const double octaves = ns > 1 ? std::log2(static_cast<double>(ns)) : 0.0;
   const int bucket = static_cast<int>(octaves * kPerOctave);
   ++buckets_[static_cast<std::size_t>(std::clamp(bucket, 0, kPerOctave * kOctaves - 1))];
+  max_ = std::max(max_, ns);
   ++count_;
 }
 

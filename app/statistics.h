@@ -14,12 +14,14 @@ class TimeHistogram {
   void add(int64_t ns);
   double quantile_ns(double q) const;  // q in [0, 1]; 0 when empty
   int64_t count() const { return count_; }
+  int64_t max_ns() const { return max_; }
 
  private:
   static constexpr int kPerOctave = 16;
   static constexpr int kOctaves = 42;
   std::array<uint32_t, kPerOctave * kOctaves> buckets_{};
   int64_t count_ = 0;
+  int64_t max_ = 0;
 };
 
 inline constexpr int kStatuses = 6;
@@ -37,6 +39,8 @@ struct Statistics {
   std::array<int64_t, kMostFish> poses_of_fish{};  // by number
   std::array<TimeHistogram, kStages> stages;
   TimeHistogram total;
+  TimeHistogram latency;        // from the camera's timestamp to the motion; empty where frames are not waited for
+  int64_t rss_start_bytes = 0;  // of the process, after the first frame
 
   void add(const StepReport& report);
 };

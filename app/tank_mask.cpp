@@ -7,12 +7,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/export/pose_csv.h"
+#include "platform/codecs.h"
 
 namespace nt {
 namespace {
 
 cv::Mat inside_picture(const std::string& path, const CameraInfo& info) {
-  const cv::Mat picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  const cv::Mat picture = codecs().read_picture(path, cv::IMREAD_GRAYSCALE);
   if (picture.empty())
     throw UserError("--tank: cannot read the picture " + path +
                     "; give corners X,Y X,Y X,Y or a picture that is black "

@@ -8,6 +8,7 @@
 
 #include "app/author/ground.h"
 #include "platform/camera.h"
+#include "platform/codecs.h"
 
 namespace nt {
 namespace {
@@ -23,7 +24,7 @@ cv::Mat read_rgba(const std::string& path) {
   if (!std::filesystem::exists(path, error)) throw UserError("cannot read the picture " + path + ": no such file");
   cv::Mat image;
   try {
-    image = cv::imread(path, cv::IMREAD_UNCHANGED);
+    image = codecs().read_picture(path, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     image.release();
   }

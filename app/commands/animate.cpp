@@ -93,7 +93,7 @@ void animate(const Options& options) {
   const double fps = session.info().fps;
   const int n = inbetweens_for(options, fps);
   std::optional<PoseCsv> csv;
-  if (!options.csv.empty()) csv.emplace(options.csv, session.scale());
+  if (!options.csv.empty()) csv.emplace(options.csv, session.scale(), session.calibration());
   Film film(options.out, options.contact_sheet, stage.width(), stage.height(), fps * (n + 1));
   {
     Progress progress(session.info().frame_count);

@@ -12,11 +12,13 @@
 #include "app/export/fish_files.h"
 #include "app/export/pose_csv.h"
 #include "app/export/report.h"
+#include "app/pacer.h"
 #include "app/progress.h"
 #include "app/session.h"
 #include "app/take/from_session.h"
 #include "app/take/recorder.h"
 #include "app/ui/overlay.h"
+#include "platform/linux/clock.h"
 #include "platform/sim/sim_camera.h"
 
 namespace nt {
@@ -27,14 +29,17 @@ struct Options {
   std::string csv, truth, overlay, json, contact_sheet, take;
   bool repair = true;
   bool all = false;
+  bool real_time = false;
+  bool overlay_truth = false;
   std::optional<int> max_fish;
 };
 
 constexpr int kFishOfAll = 8;
 
-SimCamera& simulated(Session& session) {
+SimCamera& simulated(Session& session, const char* option) {
   auto* sim = dynamic_cast<SimCamera*>(&session.camera());
-  if (sim == nullptr) throw UserError("--truth: only the simulated tank knows the truth; use --camera sim", 2);
+  if (sim == nullptr)
+    throw UserError(std::string(option) + ": only the simulated tank knows the truth; use --camera sim", 2);
   return *sim;
 }
 
@@ -48,13 +53,14 @@ void finish(PoseCsv& csv, bool repair) {
 class Tables {
  public:
   Tables(const Options& options, Session& session) {
-    if (!options.truth.empty()) simulated(session);
+    if (!options.truth.empty()) simulated(session, "--truth");
     constexpr float kTankScale = 1.0f;  // the tank knows the truth in its own pixels: the source's
     if (options.all) {
-      if (!options.csv.empty()) all_.emplace("--csv", options.csv, session.scale(), session.capture().fish_count());
+      if (!options.csv.empty())
+        all_.emplace("--csv", options.csv, session.scale(), session.capture().fish_count(), session.calibration());
       if (!options.truth.empty()) all_truth_.emplace("--truth", options.truth, kTankScale, kMostFish);
     } else {
-      if (!options.csv.empty()) one_.emplace(options.csv, session.scale());
+      if (!options.csv.empty()) one_.emplace(options.csv, session.scale(), session.calibration());
       if (!options.truth.empty()) one_truth_.emplace(options.truth, kTankScale);
     }
   }
@@ -66,7 +72,7 @@ class Tables {
     for (int i = 0; all_ && i < capture.fish_count(); ++i)
       all_->add(i, frame, time_ns, capture.pose(i), capture.order(i));
     if (!one_truth_ && !all_truth_) return;
-    const TankTruth& known = *simulated(session).truth();
+    const TankTruth& known = *simulated(session, "--truth").truth();
     FishPose pose = known.pose;
     if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
     if (one_truth_) one_truth_->add(frame, time_ns, pose);
@@ -100,6 +106,30 @@ std::vector<std::string> outputs_of(const Options& options) {
   return outputs;
 }
 
+// Steps through the camera's frames: as fast as can be, or each when a live camera would have it.
+class Pace {
+ public:
+  Pace(Session& session, bool real_time)
+      : session_(session), real_time_(real_time), pacer_(static_cast<int64_t>(1e9 / session.info().fps)) {}
+  bool next() {
+    if (!real_time_) return session_.step();
+    if (session_.statistics().frames == 0) pacer_.start(steady_now_ns());
+    sleep_until_ns(pacer_.due_ns());
+    const int64_t now_ns = steady_now_ns();
+    const int64_t due_ns =
+        pacer_.due_ns() + pacer_.skips(now_ns) * pacer_.period_ns();  // of the frame that is not skipped
+    for (int skips = pacer_.take(now_ns); skips > 0; --skips) {
+      if (!session_.skip()) return false;
+    }
+    return session_.step(due_ns);
+  }
+
+ private:
+  Session& session_;
+  bool real_time_;
+  Pacer pacer_;
+};
+
 std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 void finish(TakeRecorder& take) {
@@ -124,11 +154,13 @@ void capture(const Options& options) {
   Scene scene;
   {
     Progress progress(session.info().frame_count);
-    while (session.step()) {
+    Pace pace(session, options.real_time);
+    while (pace.next()) {
       tables.add(session);
       if (take) take->add(take_frame(session));
       if (film.wanted()) {
         overlay.update(session);
+        if (options.overlay_truth) overlay.show_truth(*simulated(session, "--overlay-truth").truth(), session.scale());
         scene.clear(pane.width, pane.height, {0, 0, 0, 1});
         overlay.draw(scene);
         film.add(scene);
@@ -142,6 +174,7 @@ void capture(const Options& options) {
   film.finish();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
   std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
+  if (options.real_time) std::fprintf(stderr, "%s\n", latency_line(session.statistics(), session.info().fps).c_str());
 }
 
 }  // namespace
@@ -177,6 +210,11 @@ void add_capture(CLI::App& app, Action& action) {
   command->add_option("--truth", options->truth, "the tank's truth in the CSV's columns (sim only)")->type_name("FILE");
   command->add_option("--contact-sheet", options->contact_sheet, "twelve frames of the overlay in one picture")
       ->type_name("FILE.png");
+  command->add_flag("--overlay-truth", options->overlay_truth,
+                    "draw the tank's true midline into the overlay (sim only)");
+  command->add_flag(
+      "--real-time", options->real_time,
+      "take each frame when a live camera would have it, skip what comes too late, and report the latency");
   command->footer("Example: neontetra capture -c trout.avi --csv trout.csv --overlay trout.mp4 --json -");
   command->callback([&action, options] { action = [options] { capture(*options); }; });
 }

@@ -8,11 +8,6 @@
 
 #include <opencv2/core/version.hpp>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavutil/avutil.h>
-}
-
 #include "app/cli.h"
 #include "app/export/report.h"
 #include "app/session.h"
@@ -20,6 +15,7 @@ extern "C" {
 #include "app/ui/window.h"
 #include "core/base/simd_target.h"
 #include "core/pipeline/pipeline.h"
+#include "platform/codecs.h"
 #include "platform/display.h"
 
 namespace nt {
@@ -60,8 +56,8 @@ Finding window() {
 }
 
 Finding h264() {
-  const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_H264);
-  if (codec != nullptr) return {"h264_encoder", codec->name, true, ""};
+  const char* name = codecs().h264_encoder();
+  if (name != nullptr) return {"h264_encoder", name, true, ""};
   return {"h264_encoder", "none", false, "videos are written as MPEG-4; for H.264 install libavcodec-extra"};
 }
 
@@ -95,7 +91,7 @@ Finding trial() {
 
 std::vector<Finding> look() {
   return {{"version", "neontetra " NEONTETRA_VERSION, true, ""},
-          {"libraries", std::string("OpenCV ") + CV_VERSION + ", FFmpeg " + av_version_info(), true, ""},
+          {"libraries", std::string("OpenCV ") + CV_VERSION + ", FFmpeg " + codecs().ffmpeg_version(), true, ""},
           simd(),
           off_screen(),
           window(),

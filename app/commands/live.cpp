@@ -115,10 +115,12 @@ class Live {
 
   bool next_frame() {
     const int64_t now_ns = steady_now_ns();
+    const int64_t due_ns =
+        pacer_.due_ns() + pacer_.skips(now_ns) * pacer_.period_ns();  // of the frame that is not skipped
     for (int skips = pacer_.take(now_ns); skips > 0; --skips) {
       if (!session_.skip()) return false;
     }
-    if (!session_.step()) return false;
+    if (!session_.step(due_ns)) return false;
     frame_shown_ns_ = now_ns;
     actor_.see(session_);
     overlay_.update(session_, true);

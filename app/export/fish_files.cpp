@@ -15,8 +15,8 @@ std::string fish_file(const std::string& path, int number) {
   return (whole.parent_path() / name).string();
 }
 
-FishFiles::FishFiles(const char* option, std::string path, float scale, int fish_count)
-    : path_(std::move(path)), scale_(scale), files_(static_cast<std::size_t>(fish_count)) {
+FishFiles::FishFiles(const char* option, std::string path, float scale, int fish_count, const Calibration& calibration)
+    : path_(std::move(path)), scale_(scale), calibration_(calibration), files_(static_cast<std::size_t>(fish_count)) {
   if (path_ == "-")
     throw UserError(std::string(option) +
                         " - cannot take several fish; with --all give a file: fish.csv becomes fish-1.csv, "
@@ -27,7 +27,7 @@ FishFiles::FishFiles(const char* option, std::string path, float scale, int fish
 void FishFiles::add(int fish, int64_t frame, int64_t time_ns, const FishPose& pose, const OrderStep& order) {
   std::unique_ptr<PoseCsv>& file = files_[static_cast<std::size_t>(fish)];
   if (file == nullptr && !pose.ok()) return;
-  if (file == nullptr) file = std::make_unique<PoseCsv>(fish_file(path_, fish + 1), scale_);
+  if (file == nullptr) file = std::make_unique<PoseCsv>(fish_file(path_, fish + 1), scale_, calibration_);
   file->add(frame, time_ns, pose, order);
 }
 

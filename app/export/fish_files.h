@@ -18,7 +18,7 @@ std::string fish_file(const std::string& path, int number);
 class FishFiles {
  public:
   // Throws UserError for standard output: several files do not fit into it.
-  FishFiles(const char* option, std::string path, float scale, int fish_count);
+  FishFiles(const char* option, std::string path, float scale, int fish_count, const Calibration& calibration = {});
   // `fish` from 0; `order` is core's, of this pose.
   void add(int fish, int64_t frame, int64_t time_ns, const FishPose& pose, const OrderStep& order = {});
   std::vector<PoseCsv*> files() const;  // those that there are
@@ -28,6 +28,7 @@ class FishFiles {
  private:
   std::string path_;
   float scale_;
+  Calibration calibration_;
   std::vector<std::unique_ptr<PoseCsv>> files_;
 };
 

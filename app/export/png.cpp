@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/export/png.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "app/export/output_file.h"
 #include "platform/camera.h"
+#include "platform/codecs.h"
 
 namespace nt {
 namespace {
@@ -29,7 +29,7 @@ void write_png(const std::string& path, const Picture& picture) {
     throw UserError("cannot write " + path + ": there is no picture to write");
   }
   std::vector<uint8_t> bytes;
-  if (!cv::imencode(".png", as_opencv(picture), bytes))
+  if (!codecs().encode_png(as_opencv(picture), bytes))
     throw UserError("cannot write " + path + ": OpenCV here has no PNG encoder");
   OutputFile file(path);
   const bool complete = file.write_at(0, bytes);

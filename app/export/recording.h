@@ -32,7 +32,7 @@ class Recording {
 
  private:
   Recording(const std::string& name, Session& session, const Scene& scene, int /* the name is final */)
-      : csv_(name + ".csv", session.scale()),
+      : csv_(name + ".csv", session.scale(), session.calibration()),
         film_(name + ".mp4", "", scene.width(), scene.height(), session.info().fps) {}
 
   // PREFIX-N with the smallest N that no file has yet: an earlier recording is never overwritten.

@@ -6,6 +6,7 @@
 
 #include "core/base/simd_target.h"
 #include "platform/linux/heap_count.h"
+#include "platform/linux/process_memory.h"
 
 namespace nt {
 namespace {
@@ -41,7 +42,35 @@ Json memory_json(Session& session) {
   return {{"core_bytes", session.core_bytes()},
           {"used_bytes", session.capture().bytes_used()},
           {"contour_points_high_water", session.capture().contour_points_high_water()},
-          {"blobs_high_water", session.statistics().most_blobs}};
+          {"blobs_high_water", session.statistics().most_blobs},
+          {"process_start_bytes", session.statistics().rss_start_bytes},
+          {"process_end_bytes", resident_bytes()},
+          {"process_peak_bytes", peak_resident_bytes()}};
+}
+
+// From the camera's timestamp to the motion; null where the run was not paced.
+Json latency_json(const TimeHistogram& latency, double fps) {
+  if (latency.count() == 0) return nullptr;
+  const double frame_ns = 1e9 / fps;
+  const auto round3 = [](double v) { return std::round(v * 1e3) / 1e3; };
+  const double median = latency.quantile_ns(0.5), p99 = latency.quantile_ns(0.99);
+  const auto most = static_cast<double>(latency.max_ns());
+  return {{"frames", latency.count()},
+          {"median_ms", round3(median * 1e-6)},
+          {"p99_ms", round3(p99 * 1e-6)},
+          {"max_ms", round3(most * 1e-6)},
+          {"median_frame_times", round3(median / frame_ns)},
+          {"p99_frame_times", round3(p99 / frame_ns)},
+          {"max_frame_times", round3(most / frame_ns)}};
+}
+
+Json calibration_json(const Calibration& calibration) {
+  if (!calibration.any()) return nullptr;
+  Json json;
+  json["px_per_mm"] = calibration.px_per_mm > 0 ? Json(calibration.px_per_mm) : Json(nullptr);
+  json["scale_from"] = calibration.px_per_mm > 0 ? Json(calibration.scale_from) : Json(nullptr);
+  json["lens"] = calibration.lens.has_value();
+  return json;
 }
 
 }  // namespace
@@ -71,6 +100,8 @@ Json report_json(Session& session) {
   json["status"] = status_counts(statistics);
   json["flags"] = flag_counts(statistics);
   json["stages_us"] = stage_times_json(statistics);
+  json["latency"] = latency_json(statistics.latency, info.fps);
+  json["calibration"] = calibration_json(session.calibration());
   json["memory"] = memory_json(session);
   json["allocations_after_frame_0"] =
       heap_count_available() ? Json(statistics.allocations_after_frame_0) : Json(nullptr);
@@ -79,6 +110,17 @@ Json report_json(Session& session) {
 }
 
 std::string pretty(const Json& json) { return json.dump(2) + "\n"; }
+
+std::string latency_line(const Statistics& statistics, double fps) {
+  char line[160];
+  const double frame_ns = 1e9 / fps;
+  std::snprintf(line, sizeof line, "latency %.2f ms median, %.2f p99, %.2f at most (%.2f, %.2f, %.2f frame times)",
+                statistics.latency.quantile_ns(0.5) * 1e-6, statistics.latency.quantile_ns(0.99) * 1e-6,
+                static_cast<double>(statistics.latency.max_ns()) * 1e-6, statistics.latency.quantile_ns(0.5) / frame_ns,
+                statistics.latency.quantile_ns(0.99) / frame_ns,
+                static_cast<double>(statistics.latency.max_ns()) / frame_ns);
+  return line;
+}
 
 std::string summary_line(const Statistics& statistics) {
   char line[160];

@@ -19,6 +19,8 @@ Json stage_times_json(const Statistics& statistics);
 std::string pretty(const Json& json);  // indented, with a line end
 
 // "120 frames, 118 with a pose (98 %); 0.71 ms a frame"
+// From the camera's timestamp to the motion, in milliseconds and frame times, for the terminal.
+std::string latency_line(const Statistics& statistics, double fps);
 std::string summary_line(const Statistics& statistics);
 
 }  // namespace nt

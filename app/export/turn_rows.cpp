@@ -23,6 +23,8 @@ struct Point {
 // Columns of a row (app/export/pose_csv).
 constexpr std::size_t kStatus = 2, kCentre = 3, kDirection = 5, kHead = 6, kTail = 8, kFins = 10, kAxis = 22;
 constexpr std::size_t kConfidences = 6, kHeadConfidence = 1, kTailConfidence = 2, kFinConfidence = 3;
+// Where the scale is known: millimetres of centre, head, tail and the fins, and the length.
+constexpr std::size_t kMillimetres = 11, kHeadMm = 2, kTailMm = 4, kLeftFinMm = 6, kRightFinMm = 8;
 
 std::vector<std::string> cells_of(const std::string& row) {
   std::vector<std::string> cells;
@@ -115,7 +117,8 @@ std::string turned_row(const std::string& row, int u_num, int l_num) {
   std::vector<std::string> cells = cells_of(row);
   const std::size_t up = static_cast<std::size_t>(u_num), low = static_cast<std::size_t>(l_num);
   const std::size_t confidences = kAxis + 2 * (up + low);
-  if (cells.size() != confidences + kConfidences) return row;
+  const std::size_t mm = confidences + kConfidences;
+  if (cells.size() != mm && cells.size() != mm + kMillimetres) return row;
   Point centre, p;
   double direction = 0;
   std::vector<Point> ahead, behind;  // from the centre to the head and to the tail, as recorded
@@ -135,6 +138,10 @@ std::string turned_row(const std::string& row, int u_num, int l_num) {
   behind.push_back(p);
 
   std::swap(cells[kHead], cells[kTail]), std::swap(cells[kHead + 1], cells[kTail + 1]);
+  for (std::size_t xy = 0; xy < 2 && cells.size() > mm; ++xy) {
+    std::swap(cells[mm + kHeadMm + xy], cells[mm + kTailMm + xy]);
+    std::swap(cells[mm + kLeftFinMm + xy], cells[mm + kRightFinMm + xy]);
+  }
   cells[kDirection] = fixed(direction + std::numbers::pi, 5);
   std::vector<Point> axis = divided(behind, u_num);
   const std::vector<Point> rest = divided(ahead, l_num);

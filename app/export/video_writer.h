@@ -13,24 +13,23 @@
 #include <span>
 #include <string>
 
+#include "platform/codecs.h"
+
 namespace nt {
 
 class VideoWriter {
  public:
   // Throws UserError: unknown extension, no encoder, no folder, no permission, a size or rate that cannot be.
   VideoWriter(const std::string& path, int width, int height, double fps);
-  ~VideoWriter();  // finishes the file quietly where finish() was not called
-  VideoWriter(const VideoWriter&) = delete;
-  VideoWriter& operator=(const VideoWriter&) = delete;
 
   void add(std::span<const uint8_t> rgb);  // width x height x 3 bytes
-  void finish();                           // writes what the encoder still holds, closes; again is harmless
-  int64_t frames_written() const;          // that have reached the file
-  const char* codec_name() const;          // "libx264"
+  // Writes what the encoder still holds, closes; again is harmless. Without it the destructor does so quietly.
+  void finish();
+  int64_t frames_written() const;  // that have reached the file
+  const char* codec_name() const;  // "libx264"
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<VideoFile> file_;
 };
 
 }  // namespace nt

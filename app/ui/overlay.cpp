@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ui/overlay.h"
 
+#include <cstdio>
+#include <string>
+
+#include "app/export/pose_csv.h"
+
 namespace nt {
 namespace {
 
@@ -11,9 +16,18 @@ constexpr Colour kBlue{0.15f, 0.35f, 1, 1};
 constexpr Colour kGreen{0.1f, 0.85f, 0.25f, 1};
 constexpr Colour kYellow{1, 0.85f, 0.1f, 1};
 constexpr Colour kOrange{1, 0.55f, 0.1f, 1};
+constexpr Colour kMagenta{1, 0.2f, 0.9f, 0.9f};
 constexpr Colour kGrey{0.7f, 0.7f, 0.7f, 0.7f};
 constexpr float kPoint = 9, kLine = 2;  // scene pixels
 constexpr std::size_t kMaxBoxes = 32;   // of other blobs; the scene holds 256 items
+
+std::string confidences(const PoseConfidence& c) {
+  char text[96];
+  std::snprintf(text, sizeof text, "  head %.2f  tail %.2f  fins %.2f %.2f  axis %.2f", static_cast<double>(c.head),
+                static_cast<double>(c.tail), static_cast<double>(c.l_fin), static_cast<double>(c.r_fin),
+                static_cast<double>(c.axis));
+  return text;
+}
 
 }  // namespace
 
@@ -29,8 +43,14 @@ void Overlay::update(Session& session, bool show_blobs) {
     numbers_.back().set(std::to_string(i + 1));
   }
   blob_corners_.clear();
+  truth_.clear();
   if (show_blobs) take_blobs(session);
-  text_.set("frame " + std::to_string(session.frame_index()) + "  " + to_string(session.report().status));
+  text_.set("frame " + std::to_string(session.frame_index()) + "  " + to_string(session.report().status) +
+            (session.report().status == PoseStatus::ok ? confidences(session.capture().pose().confidence) : ""));
+}
+
+void Overlay::show_truth(const TankTruth& truth, float scale) {
+  for (const Vec2 p : truth.midline) truth_.push_back(pane_.to_scene(to_working(p, scale)));
 }
 
 void Overlay::take_pose(const Capture& capture, int fish, Drawn& drawn) const {
@@ -88,6 +108,7 @@ void Overlay::draw(Scene& scene) const {
   for (std::size_t i = 0; i < fish_.size(); ++i) {
     if (fish_[i].seen) draw_fish(fish_[i], i < numbers_.size() ? &numbers_[i] : nullptr, scene);
   }
+  if (truth_.size() > 1) scene.lines(truth_, kMagenta, 1);
   text_.draw(scene, pane_.corner + Vec2{8, 6});
 }
 

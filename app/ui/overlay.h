@@ -11,6 +11,7 @@
 #include "app/ui/pane.h"
 #include "app/ui/text.h"
 #include "core/scene/scene.h"
+#include "platform/sim/tank.h"
 
 namespace nt {
 
@@ -18,6 +19,8 @@ class Overlay {
  public:
   explicit Overlay(const Pane& pane) : pane_(pane), text_(kFirstTextPicture) {}
   void update(Session& session, bool show_blobs = false);
+  // The true midline of the tank's fish, a thin line; after update(). `scale`: tank pixels a working pixel.
+  void show_truth(const TankTruth& truth, float scale);
   void draw(Scene& scene) const;
 
  private:
@@ -34,7 +37,8 @@ class Overlay {
   Pane pane_;
   Picture picture_;
   std::vector<Drawn> fish_;
-  std::vector<Text> numbers_;       // one a fish, where there are several
+  std::vector<Text> numbers_;  // one a fish, where there are several
+  std::vector<Vec2> truth_;
   std::vector<Vec2> blob_corners_;  // four a blob
   Text text_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/sim/frame_source.h"
+#include "platform/sim/decoded_files.h"
 
 #include <fcntl.h>
 #include <glob.h>
@@ -213,7 +213,7 @@ std::unique_ptr<FrameSource> open_pictures(std::vector<std::string> files, const
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_frame_source(const std::string& path) {
+std::unique_ptr<FrameSource> open_decoded_files(const std::string& path) {
   silence_libraries();
   std::error_code error;
   if (fs::is_directory(path, error)) {

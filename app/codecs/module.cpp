@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table that libneontetra_codecs.so hands out; see platform/codecs.h.
+#include <cstdint>  // libav wants it first
+
+extern "C" {
+#include <libavutil/avutil.h>
+}
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/codecs/libav_video.h"
+#include "platform/codecs.h"
+#include "platform/sim/decoded_files.h"
+
+namespace {
+
+cv::Mat read_picture(const std::string& path, int imread_flags) { return cv::imread(path, imread_flags); }
+bool encode_png(const cv::Mat& bgr, std::vector<uint8_t>& bytes) { return cv::imencode(".png", bgr, bytes); }
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const nt::Codecs* neontetra_codecs() {
+  static constexpr nt::Codecs kTable{nt::open_decoded_files, nt::open_libav_video, read_picture, encode_png,
+                                     nt::h264_encoder_name,  av_version_info};
+  return &kTable;
+}

@@ -13,7 +13,7 @@ std::optional<std::array<Vec2, 4>> find_marker(LumaView luma) {
                         static_cast<std::size_t>(luma.stride));
   const auto family = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
   const auto parameters = cv::aruco::DetectorParameters::create();
-  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
+  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_APRILTAG;  // sub-pixel, and content with a narrow rim
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> ids;
   cv::aruco::detectMarkers(picture, family, markers, ids, parameters);

@@ -10,7 +10,7 @@ namespace {
 // A frame is recognised when half of the blocks agree; a fish that fills half the frame still leaves that.
 constexpr float kLeastAgreeing = 0.5f;
 constexpr float kLeastSeen = 0.55f;  // of the reference: with less in view it is time for a new one
-constexpr int kPatience = 6;         // frames that may be strange (blurred by a jolt) before a new reference is taken
+constexpr int kPatience = 3;         // frames that may be strange (blurred by a jolt) before a new reference is taken
 // The camera moves when a corner has moved by this, frame pixels, and moving it back explains most of the change. Less
 // is nothing that a background model minds.
 constexpr float kMoves_px = 0.6f;

@@ -37,5 +37,7 @@ struct Codecs {
 };
 
 const Codecs& codecs();
+// Another function of the module, by its C name: for what the app keeps there too.
+void* codecs_function(const char* name);
 
 }  // namespace nt

@@ -274,11 +274,6 @@ SourceMesh Reader::read() {
 
 }  // namespace
 
-bool is_mesh_file(const std::string& path) {
-  const std::string ending = lower(std::filesystem::path(path).extension().string());
-  return ending == ".glb" || ending == ".gltf" || ending == ".obj" || ending == ".ply";
-}
-
-SourceMesh read_mesh(const std::string& path, const ToldAxes& told) { return Reader(path, told).read(); }
+SourceMesh read_mesh_file(const std::string& path, const ToldAxes& told) { return Reader(path, told).read(); }
 
 }  // namespace nt

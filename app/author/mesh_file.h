@@ -31,6 +31,9 @@ struct SourceMesh {
 // By the name's ending: .glb, .gltf, .obj, .ply, in either case.
 bool is_mesh_file(const std::string& path);
 
+// The same, inside libneontetra_codecs.so (platform/codecs.h).
+SourceMesh read_mesh_file(const std::string& path, const ToldAxes& told);
+
 SourceMesh read_mesh(const std::string& path, const ToldAxes& told);
 
 }  // namespace nt

@@ -8,6 +8,7 @@ extern "C" {
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "app/author/mesh_file.h"
 #include "app/codecs/libav_video.h"
 #include "platform/codecs.h"
 #include "platform/sim/decoded_files.h"
@@ -23,4 +24,10 @@ extern "C" __attribute__((visibility("default"))) const nt::Codecs* neontetra_co
   static constexpr nt::Codecs kTable{nt::open_decoded_files, nt::open_libav_video, read_picture, encode_png,
                                      nt::h264_encoder_name,  av_version_info};
   return &kTable;
+}
+
+extern "C" __attribute__((visibility("default"))) void neontetra_read_mesh(const std::string& path,
+                                                                           const nt::ToldAxes& told,
+                                                                           nt::SourceMesh& mesh) {
+  mesh = nt::read_mesh_file(path, told);
 }

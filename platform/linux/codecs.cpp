@@ -8,7 +8,7 @@
 namespace nt {
 namespace {
 
-const Codecs& load() {
+void* load() {
   // Found by the program's run path: beside it in the build, in the library folder once installed.
   void* module = dlopen("libneontetra_codecs.so", RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
@@ -16,16 +16,21 @@ const Codecs& load() {
                                 "install neontetra again (") +
                     dlerror() + ")");
   }
-  using Table = const Codecs* (*)();
-  const auto table = reinterpret_cast<Table>(dlsym(module, "neontetra_codecs"));
-  if (table == nullptr) throw UserError("libneontetra_codecs.so is of another version; install neontetra again");
-  return *table();
+  return module;
 }
 
 }  // namespace
 
+void* codecs_function(const char* name) {
+  static void* const module = load();
+  void* function = dlsym(module, name);
+  if (function == nullptr) throw UserError("libneontetra_codecs.so is of another version; install neontetra again");
+  return function;
+}
+
 const Codecs& codecs() {
-  static const Codecs& table = load();
+  using Table = const Codecs* (*)();
+  static const Codecs& table = *reinterpret_cast<Table>(codecs_function("neontetra_codecs"))();
   return table;
 }
 

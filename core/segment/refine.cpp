@@ -134,7 +134,7 @@ Refine* Refine::create(Arena& arena, const Limits& limits) {
   std::span<uint64_t> masks[7];
   for (auto& m : masks) m = arena.take_raw<uint64_t>(words);
   auto blurred = arena.take_raw<uint8_t>(static_cast<std::size_t>(limits.max_width) *
-                                         static_cast<std::size_t>(limits.max_height) / 2);
+                                         static_cast<std::size_t>(limits.max_height) / 3);
   Limits parts = limits;
   parts.max_blobs *= kPartsPerBlob;
   Blobs* blobs = Blobs::create(arena, parts);
@@ -237,7 +237,7 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
                 shadow = mask(5), around = mask(6);
   const LumaView ground = part_of(background, box);
   LumaView here = part_of(luma, box);
-  // A box of more than half the frame does without: so large a fish is seen through any noise.
+  // A box of more than a third of the frame does without: so large a fish is seen through any noise.
   if (noise_sigma > kNoisy && static_cast<std::size_t>(w) * static_cast<std::size_t>(h) <= blurred_.size()) {
     const ImageView<uint8_t> calm{blurred_.data(), w, h, w};
     blur_binomial(here, calm);

@@ -140,7 +140,7 @@ std::string turned_row(const std::string& row, int u_num, int l_num) {
   std::swap(cells[kHead], cells[kTail]), std::swap(cells[kHead + 1], cells[kTail + 1]);
   for (std::size_t xy = 0; xy < 2 && cells.size() > mm; ++xy) {
     std::swap(cells[mm + kHeadMm + xy], cells[mm + kTailMm + xy]);
-    std::swap(cells[mm + kLeftFinMm + xy], cells[mm + kRightFinMm + xy]);
+    cells[mm + kLeftFinMm + xy].clear(), cells[mm + kRightFinMm + xy].clear();
   }
   cells[kDirection] = fixed(direction + std::numbers::pi, 5);
   std::vector<Point> axis = divided(behind, u_num);

@@ -225,7 +225,8 @@ void FishTrack::to_frame(const Similarity& t) {
 }
 
 void FishTrack::change_reference(const Similarity& new_from_old) {
-  for (Vec2* p : {&last_head_, &last_tail_, &last_centre_}) *p = new_from_old(*p);
+  for (Vec2& p : last_axis_) p = new_from_old(p);
+  last_centre_ = new_from_old(last_centre_);
   travel_ = new_from_old.turned(travel_);
 }
 

@@ -30,7 +30,7 @@ TEST(MarkerPuppetTest, ABodyFollows36MarkersAndSurvivesTheirGap) {
   int held = 0;
   for (std::size_t f = 0; f < file.frames(); f += f < 1100 ? 5 : 1) {
     held += puppet.step(file.frame(f)).held;
-    for (std::size_t i = 0; i < last.size() && f >= 1100; i += 3) {
+    for (std::size_t i = 0; i < last.size() && f > 1100; i += 3) {
       const auto& p = puppet.places();
       largest = std::max(largest, length(Vec3{p[i] - last[i], p[i + 1] - last[i + 1], p[i + 2] - last[i + 2]}));
     }

@@ -19,7 +19,9 @@ constexpr float kShortest_px = 8.0f;  // below it the outline's pixel steps are 
 constexpr float kRoundest = 1.35f;    // length^2 / area: a disc has 1.27, an angelfish 1.5, a trout 8
 constexpr int kArcReach = 4;          // points: a ragged rim is not longer than a smooth one
 constexpr float kBeforeTail = 0.7f;   // of a bent fish's axis: from here its tail fin is looked at
-constexpr int kRounds = 2;            // of centring
+constexpr int kPeduncle = kStations * 5 / 6;
+constexpr float kThin_px = 4.0f;  // half-width there, up to which the outline may have lost the last of the tail
+constexpr int kRounds = 2;        // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kHeadTrim = 0.09f, kTailTrim = 0.05f;
 
@@ -133,7 +135,7 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
     axis = extended_to_outline(centred(axis, widths, body), c, drawn);
   }
   measure_fins(c, right, body, pose);
-  if (!drawn.notched) axis = followed_tail(axis, hints.luma, hints.ground);
+  if (!drawn.notched && body[kPeduncle] < kThin_px) axis = followed_tail(axis, hints.luma, hints.ground);
 
   sample_axis(moments.centroid, pose);
   pose.head = axis.points[0], pose.tail = axis.points[kStations - 1];

@@ -2,6 +2,7 @@
 #include "app/tank_mask.h"
 
 #include <cmath>
+#include <fstream>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -13,7 +14,8 @@ namespace nt {
 namespace {
 
 cv::Mat inside_picture(const std::string& path, const CameraInfo& info) {
-  const cv::Mat picture = codecs().read_picture(path, cv::IMREAD_GRAYSCALE);
+  // Looked at first: OpenCV has its own lines for a file that is not there.
+  const cv::Mat picture = std::ifstream(path) ? codecs().read_picture(path, cv::IMREAD_GRAYSCALE) : cv::Mat();
   if (picture.empty())
     throw UserError("--tank: cannot read the picture " + path +
                     "; give corners X,Y X,Y X,Y or a picture that is black "

@@ -16,9 +16,6 @@ namespace {
 constexpr float kRingHole = 0.1f;  // share of the outline: eyes of the ground's tone are 2 %, a ring's hole much more
 constexpr int kForgetOrder = 15;   // frames without a pose after which the order of head and tail is open again
 constexpr float kTravelFrames = 5.0f;
-constexpr float kGrowth = 1.015f;      // a frame: a fish that swims in uncovers 3 to 6 % of its length, noise 0.5 %
-constexpr float kWholeLength = 0.97f;  // of the known length: it is wholly inside
-constexpr float kTailOutside = 0.2f;   // of the length: a tail that is not seen is no longer
 // What has been there for less, or is smaller, may be a part of this fish.
 constexpr int kKnownFrames = 10;
 constexpr float kFishBeside = 0.35f;
@@ -46,7 +43,6 @@ PoseStatus FishTrack::look_for(const CaptureTools& tools, Swimmer& swimmer) {
   if (swimmer.blob < 0) return PoseStatus::lost;
   const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(swimmer.blob)];
   const PoseStatus status = outline(tools, swimmer.blob);
-  if (status == PoseStatus::partial || blob.touches_edge) entering_ = true, entering_len_ = 0;
   if (swimmer.in_heap) return PoseStatus::occluded;
   if (!blob.touches_edge) looks = swimmer.looks;
   if (status != PoseStatus::ok) return status;
@@ -159,18 +155,6 @@ LandmarkHints FishTrack::hints(const CaptureTools& tools, const Swimmer& swimmer
   return hints;
 }
 
-// After it touched the edge: as long as it is near it and its axis grows, unless it is as long as it ever was.
-bool FishTrack::still_entering(const LumaView& luma) {
-  if (!entering_) return false;
-  const bool grows = pose.axis_len > kGrowth * entering_len_;
-  const bool whole = known_len_ > 0 && pose.axis_len > kWholeLength * known_len_;
-  const int reach = static_cast<int>(kTailOutside * pose.axis_len);
-  const bool near = box.x0 < reach || box.y0 < reach || box.x1 > luma.width - reach || box.y1 > luma.height - reach;
-  entering_len_ = pose.axis_len;
-  entering_ = grows && near && !whole;
-  return entering_;
-}
-
 PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
   const bool changed = last_swimmer_ != swimmer.id;
@@ -181,7 +165,9 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   Vec2 last[kOrderPoints];
   const bool found = landmarks.find(points(), hints(tools, swimmer, last), pose);
   tools.clock.lap(Stage::landmarks);
-  if (!found ||
+  const int largest = tools.settings.max_area_px;
+  const bool too_large = largest > 0 && landmarks.area_px() > static_cast<float>(largest);
+  if (!found || too_large ||
       !swimmer.observe(box, pose.centre, landmarks.area_px(), pose.axis_len, touching_, tools.settings.lost_after))
     return PoseStatus::occluded;
   if (landmarks.swapped()) tools.report.flags |= kHeadTailSwapped;
@@ -206,7 +192,6 @@ void FishTrack::remember(const Landmarks& landmarks) {
   has_last_ = true;
   frames_without_pose_ = 0;
   if (init_len == 0) init_len = pose.axis_len;
-  known_len_ = known_len_ > 0 ? known_len_ + (pose.axis_len - known_len_) * 0.1f : pose.axis_len;
   const std::span<const Vec2> reconstruction = landmarks.smooth_contour();
   for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = reconstruction[i];
 }

@@ -76,7 +76,6 @@ struct FishTrack {
   void to_frame(const Similarity& frame_from_reference);
   float enclosed_px() const;
   PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
-  bool still_entering(const LumaView& luma);
   LandmarkHints hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const;
   void remember(const Landmarks& landmarks);
   void protect_from_learning(const FishMask& fish);
@@ -85,11 +84,7 @@ struct FishTrack {
   Vec2 last_axis_[kOrderPoints], last_centre_, travel_;
   float head_log_odds_ = 0;
   bool has_last_ = false;
-  // A fish that swims in: its outline may have left the frame's edge while a half-transparent tail is still outside.
-  bool entering_ = false;
-  float entering_len_ = 0;  // of its axis in the last frame, pixels
-  float known_len_ = 0;     // of the axis of the whole fish
-  bool touching_ = false;   // what was outlined holds a part of another one
+  bool touching_ = false;  // what was outlined holds a part of another one
   uint32_t last_swimmer_ = 0;
   int frames_without_pose_ = 0;
 };

@@ -298,6 +298,14 @@ TEST(Pipeline, WhatIsTooLargeOrTooSmallIsNoFish) {
   EXPECT_EQ(status_with(0, 500), PoseStatus::absent);
 }
 
+TEST(Pipeline, AFishThatGrowsTooLargeGivesNoPose) {
+  CaptureSettings settings = still();
+  settings.max_area_px = 700;
+  Filmed film(settings);
+  film.learn(empty());
+  for (float x = -20; x < 100; x += 4) EXPECT_NE(film.see(fish_at(x, 90)).status, PoseStatus::ok) << x;
+}
+
 TEST(Pipeline, MoreFishTakeMoreMemoryAndBadNumbersAreRefused) {
   const Limits limits = Filmed::limits(kWidth, kHeight);
   CaptureSettings settings = still();

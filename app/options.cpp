@@ -19,13 +19,14 @@ BackgroundOption parse_background(const std::string& text) {
   using Kind = BackgroundOption::Kind;
   if (text == "auto") return {};
   if (text == "vibe") return {Kind::vibe, ""};
+  if (text == "vibe-colour") return {Kind::vibe_colour, ""};
   if (text == "backlit") return {Kind::backlit, ""};
   if (text == "still") return {Kind::still, ""};
   if (text.starts_with("still:") && text.size() > 6) return {Kind::still, text.substr(6)};
-  const std::vector<std::string> names = {"vibe", "still", "backlit", "auto"};
+  const std::vector<std::string> names = {"vibe", "vibe-colour", "still", "backlit", "auto"};
   throw UserError("--background: unknown model '" + text + "'; did you mean '" +
                       nearest_name(text.substr(0, text.find(':')), names) +
-                      "'? (there are: vibe, still[:PICTURE], backlit, auto)",
+                      "'? (there are: vibe, vibe-colour, still[:PICTURE], backlit, auto)",
                   2);
 }
 
@@ -145,7 +146,8 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
       "stop after N frames (default 0: all)");
   text(
       "--background", [&o](const std::string& s) { o.background = parse_background(s); }, "MODEL",
-      "vibe (moving fish), still[:PICTURE] (empty-tank picture, or the clip's median), backlit (fish on an even bright "
+      "vibe (moving fish), vibe-colour (the same, and by colour; half as much again in time and memory), "
+      "still[:PICTURE] (empty-tank picture, or the clip's median), backlit (fish on an even bright "
       "or dark field), auto (tests the clip and says why; default)");
   text(
       "--select", [&o](const std::string& s) { o.select = parse_select(s); }, "X,Y",

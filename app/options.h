@@ -21,10 +21,10 @@ class App;
 namespace nt {
 
 struct BackgroundOption {
-  enum class Kind : uint8_t { automatic, vibe, still, backlit } kind = Kind::automatic;
+  enum class Kind : uint8_t { automatic, vibe, vibe_colour, still, backlit } kind = Kind::automatic;
   std::string picture;  // still: a picture of the empty tank; "" = the median of the clip
 };
-BackgroundOption parse_background(const std::string& text);  // vibe | still[:PICTURE] | backlit | auto
+BackgroundOption parse_background(const std::string& text);  // vibe | vibe-colour | still[:PICTURE] | backlit | auto
 
 struct SelectOption {
   bool automatic = true;

@@ -40,7 +40,7 @@ cv::Mat read_tank_picture(const std::string& path, const CameraInfo& info) {
 }
 
 const char* model_name(BackgroundKind kind) {
-  constexpr const char* kNames[] = {"vibe", "still", "backlit"};
+  constexpr const char* kNames[] = {"vibe", "still", "backlit", "vibe-colour"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -63,6 +63,7 @@ Session::Session(const CaptureOptions& options)
   }
   calibrate(options);
   const BackgroundKind kind = choose_model(options);
+  if (kind == BackgroundKind::vibe_colour) camera_->give_chroma();
   create_capture(options, kind);
   learn(options, kind);
   if (!options.select.automatic) select(options.select.at);
@@ -109,6 +110,8 @@ BackgroundKind Session::choose_model(const CaptureOptions& options) {
   switch (options.background.kind) {
     case Kind::vibe:
       return BackgroundKind::vibe;
+    case Kind::vibe_colour:
+      return BackgroundKind::vibe_colour;
     case Kind::still:
       return BackgroundKind::still;
     case Kind::backlit:

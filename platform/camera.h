@@ -35,6 +35,8 @@ class Camera {
   virtual const CameraInfo& info() const = 0;
   // The next frame, or nothing at the end. Pixels stay valid until the next call. Throws UserError on a broken source.
   virtual std::optional<Frame> next() = 0;
+  // From the next frame on, frames carry chroma; a grey camera gives grey, or none.
+  virtual void give_chroma() {}
   // The colour picture of the last frame, for showing (luma8 or rgb8, working size).
   virtual Picture picture() const = 0;
   // Starts again from the first frame; false where the source cannot (a live camera).

@@ -88,7 +88,9 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("N")
       ->check(CLI::Range(2, 1000000));
   command->add_option("--work-size", options->size, "frame size (default 960x544)")->type_name("WxH");
-  command->add_option("--background", options->background, "vibe, still[:PICTURE], backlit or auto (default vibe)")
+  command
+      ->add_option("--background", options->background,
+                   "vibe, vibe-colour, still[:PICTURE], backlit or auto (default vibe)")
       ->type_name("MODEL");
   command->add_option("--character", options->character, "also time how long it takes to pose this one")
       ->type_name("FILE");

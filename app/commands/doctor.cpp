@@ -71,6 +71,17 @@ Finding memory() {
   return {"core_memory", text, bytes <= kMemoryBudget, "more than 16 MB: lower the limits in core/base/limits.h"};
 }
 
+Finding colour_memory() {
+  const Limits limits;
+  CaptureSettings settings;
+  settings.background.kind = BackgroundKind::vibe_colour;
+  char text[80];
+  std::snprintf(text, sizeof text, "%.2f MB at %dx%d with --background vibe-colour",
+                static_cast<double>(Capture::bytes_needed(limits, settings)) * 1e-6, limits.max_width,
+                limits.max_height);
+  return {"colour_memory", text, true, ""};
+}
+
 Finding trial() {
   CaptureOptions options;
   options.frames = kTrialFrames;
@@ -97,6 +108,7 @@ std::vector<Finding> look() {
           window(),
           h264(),
           memory(),
+          colour_memory(),
           trial()};
 }
 

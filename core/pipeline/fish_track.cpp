@@ -61,8 +61,9 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(index)];
   const LumaView luma = tools.frame.luma;
   Refine& refine = tools.refine;
-  const FishMask fish = refine.fish(luma, tools.background.estimate(), tools.background.noise_sigma(), blob, index,
-                                    tools.blobs.runs(), tools.settings.shadows && tools.background.can_have_shadows());
+  const FishMask fish =
+      refine.fish(luma, tools.background.estimate(), tools.background.noise_sigma(), blob, index, tools.blobs.runs(),
+                  tools.settings.shadows && tools.background.can_have_shadows(), &tools.background);
   if (refine.runs_dropped()) tools.report.flags |= kRunsDropped;
   if (refine.blobs_dropped()) tools.report.flags |= kBlobsDropped;
   if (fish.shadow_removed) tools.report.flags |= kShadowRemoved;

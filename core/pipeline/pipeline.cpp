@@ -9,6 +9,7 @@
 #include "core/pipeline/fish_track.h"
 #include "core/segment/blobs.h"
 #include "core/segment/clean.h"
+#include "core/segment/first_sight.h"
 #include "core/segment/ghost.h"
 #include "core/segment/refine.h"
 #include "core/segment/swimmers.h"
@@ -37,6 +38,7 @@ struct CaptureImpl final : Capture {
   Blobs* blobs = nullptr;
   Refine* refine = nullptr;
   Landmarks* landmarks = nullptr;
+  FirstSight first_sight;
   BitMask raw, open, scratch;
   std::span<BlobView> views;
   Swimmers swimmers;
@@ -62,6 +64,7 @@ struct CaptureImpl final : Capture {
   void fill_tank();
   const BitMask* protected_pixels();
   void unprotect();
+  bool protects() const;
   void number_fish();
   int number_for(const Swimmer& swimmer) const;
   bool is_fish(const Swimmer& swimmer) const;
@@ -153,8 +156,13 @@ void CaptureImpl::change_reference() {
 
 // Background to blobs. False when the mask of this frame means nothing.
 bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& report) {
+  const int min_area = settings.min_area_px > 0 ? settings.min_area_px : max_int(width * height / 4000, 9);
+  if (!background->ready() && !protects())
+    fish[0].protected_now = first_sight.find(frame.luma, min_area, *blobs, raw, scratch, fish[0].protect) > 0;
+  background->see_chroma(frame.cb, frame.cr);
   const bool means_something = background->apply(frame.luma, protected_pixels(), raw);
   has_background = true;
+  if (background->relit()) report.flags |= kRelearned;
   clock.lap(Stage::background);
   if (!tank.empty())
     for (int i = 0; i < raw.words_per_row * height; ++i) raw.words[i] &= tank.words[i];
@@ -173,7 +181,6 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
 
   open_mask(raw, scratch, open, settings.open_size);
   clock.lap(Stage::clean);
-  const int min_area = settings.min_area_px > 0 ? settings.min_area_px : max_int(width * height / 4000, 9);
   blobs->find(open, min_area);
   if (blobs->runs_dropped()) report.flags |= kRunsDropped;
   if (blobs->blobs_dropped()) report.flags |= kBlobsDropped;
@@ -182,6 +189,10 @@ bool CaptureImpl::segment(const Frame& frame, StageClock& clock, StepReport& rep
     if (!is_ghost(frame.luma, background->estimate(), blobs->runs(), i)) continue;
     blobs->mark_ghost(i);
     background->absorb(frame.luma, blobs->runs(), i);
+  }
+  if (const int stone = first_sight.lifeless(blobs->blobs()); stone >= 0) {
+    blobs->mark_ghost(stone);
+    background->absorb(frame.luma, blobs->runs(), stone);
   }
   clock.lap(Stage::components);
   return true;
@@ -200,6 +211,12 @@ const BitMask* CaptureImpl::protected_pixels() {
 
 void CaptureImpl::unprotect() {
   for (FishTrack& one : fish) one.unprotect();
+}
+
+bool CaptureImpl::protects() const {
+  for (const FishTrack& one : fish)
+    if (one.protected_now) return true;
+  return false;
 }
 
 // Worth a number of its own, besides the target.

@@ -4,6 +4,7 @@
 #include "core/segment/backlit.h"
 #include "core/segment/still.h"
 #include "core/segment/vibe.h"
+#include "core/segment/vibe_colour.h"
 
 namespace nt {
 
@@ -15,6 +16,9 @@ Result<Background*> Background::create(Arena& arena, const Limits& limits, const
   switch (settings.kind) {
     case BackgroundKind::vibe:
       model = Vibe::create(arena, settings, width, height, seed);
+      break;
+    case BackgroundKind::vibe_colour:
+      model = VibeColour::create(arena, settings, width, height, seed);
       break;
     case BackgroundKind::still:
       model = Still::create(arena, settings, width, height);

@@ -28,6 +28,7 @@ constexpr int kPartsPerBlob = 4;
 constexpr int kMostFlicker = 24;  // grey levels; more is no flicker
 constexpr float kGlow = 0.12f;    // of the fish's own contrast; its fins have a quarter of it and more
 constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
+constexpr int kRim = 2;           // pixels
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
@@ -208,7 +209,7 @@ bool Refine::reaches_border(const BitMask& mask) const {
 }
 
 FishMask Refine::fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
-                      std::span<const Run> runs, bool remove_shadow) {
+                      std::span<const Run> runs, bool remove_shadow, const Background* model) {
   runs_dropped_ = blobs_dropped_ = false;
   FishMask result;
   result.box = blob.box;
@@ -221,14 +222,14 @@ FishMask Refine::fish(LumaView luma, LumaView background, float noise_sigma, con
     box.x0 = box.x0 / 64 * 64;
     box.x1 = min_int((box.x1 + 63) / 64 * 64, luma.width);
     const bool whole_frame = box.width() == luma.width && box.height() == luma.height;
-    result = fish_in(box, luma, background, noise_sigma, label, runs, remove_shadow);
+    result = fish_in(box, luma, background, noise_sigma, label, runs, remove_shadow, model);
     if (whole_frame || !reaches_border(result.mask)) break;
   }
   return result;
 }
 
 FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, float noise_sigma, int label,
-                         std::span<const Run> runs, bool remove_shadow) {
+                         std::span<const Run> runs, bool remove_shadow, const Background* model) {
   FishMask result;
   result.box = box;
   const int w = box.width(), h = box.height(), words = words_for(w);
@@ -238,7 +239,9 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   const LumaView ground = part_of(background, box);
   LumaView here = part_of(luma, box);
   // A box of more than a third of the frame does without: so large a fish is seen through any noise.
-  if (noise_sigma > kNoisy && static_cast<std::size_t>(w) * static_cast<std::size_t>(h) <= blurred_.size()) {
+  const bool blurred =
+      noise_sigma > kNoisy && static_cast<std::size_t>(w) * static_cast<std::size_t>(h) <= blurred_.size();
+  if (blurred) {  // then the samples' own noise widens their reach
     const ImageView<uint8_t> calm{blurred_.data(), w, h, w};
     blur_binomial(here, calm);
     here = {calm.data, w, h, w};
@@ -251,6 +254,13 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
   masks_of_difference(here, ground, weak, light_offset(here, ground), bright, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
+  if (model != nullptr) {
+    // A vein of light on the ground differs from the estimate, but has been seen before. Only the rim of what is new may
+    // hold familiar pixels: there fish and ground mix.
+    model->clear_familiar(here, box.x0, box.y0, blurred ? weak / 2 : weak, candidates);
+    spread(candidates, shadow, kRim);
+    combine(candidates, [&](int i) { return (shadow.words[i] & (bright.words[i] | dark.words[i])) | seeds.words[i]; });
+  }
   keep_connected(candidates, seeds, fish);
   combine(around, [&](int i) { return fish.words[i]; });
   if (remove_shadow && find_shadow(here, ground, fish, seeds, bright, dark, shadow)) {

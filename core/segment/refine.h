@@ -14,6 +14,7 @@
 
 #include "core/base/arena.h"
 #include "core/base/image_view.h"
+#include "core/segment/background.h"
 #include "core/segment/blobs.h"
 
 namespace nt {
@@ -28,15 +29,16 @@ struct FishMask {
 class Refine {
  public:
   static Refine* create(Arena& arena, const Limits& limits);
-  // `blob` and `runs` are of the opened mask; `label` is the blob's. `remove_shadow`: the scene can have shadows.
+  // `blob` and `runs` are of the opened mask; `label` is the blob's. `remove_shadow`: the scene can have shadows. `model`
+  // (may be null) is asked whether what differs from the estimate is yet familiar to it.
   FishMask fish(LumaView luma, LumaView background, float noise_sigma, const Blob& blob, int label,
-                std::span<const Run> runs, bool remove_shadow);
+                std::span<const Run> runs, bool remove_shadow, const Background* model = nullptr);
   bool runs_dropped() const { return runs_dropped_; }    // more than Limits::max_runs in the box
   bool blobs_dropped() const { return blobs_dropped_; }  // more than kPartsPerBlob x Limits::max_blobs
 
  private:
   FishMask fish_in(const Box& box, LumaView luma, LumaView background, float noise_sigma, int label,
-                   std::span<const Run> runs, bool remove_shadow);
+                   std::span<const Run> runs, bool remove_shadow, const Background* model);
   bool reaches_border(const BitMask& mask) const;
   void paint_seeds(std::span<const Run> runs, int label, const Box& box, const BitMask& seeds);
   bool keep_connected(const BitMask& candidates, const BitMask& seeds, const BitMask& out);

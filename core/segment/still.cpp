@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/segment/difference.h"
+#include "core/segment/fill.h"
 
 namespace nt {
 namespace {
@@ -60,19 +61,28 @@ void Still::take_median() {
 
 bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) {
   bool means_something = true;
+  const ImageView<uint8_t> plane{plane_.data(), width_, height_, stride_};
   if (!started_) {
     means_something = learned_count_ > 0;
     if (learned_count_ == 0) learn(luma);
     take_median();
     started_ = true;
+    light_.start(estimate());
+    if (keep != nullptr && !means_something) {
+      Random unused;
+      fill_unknown(*keep, Fill::mean, unused, plane);
+    }
     noise_.restart();  // the learned pictures may lie seconds apart; consecutive frames give the noise
   }
   noise_.add(luma);
+  const Relight relight = light_.update(luma, keep != nullptr);
+  relit_ = relight.all != 1.0f;
+  if (relit_) scale_pixels(relight.all, plane_);
+  if (relight.kept != 1.0f && keep != nullptr) scale_pixels(relight.kept, *keep, plane);
   const int radius =
       settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
   mask_of_difference(luma, estimate(), radius, 0, foreground);
-  follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
-                    {plane_.data(), width_, height_, stride_});
+  follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())), plane);
   return means_something;
 }
 

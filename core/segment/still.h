@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/segment/background.h"
+#include "core/segment/light.h"
 #include "core/segment/noise.h"
 
 namespace nt {
@@ -21,10 +22,12 @@ class Still final : public Background {
   const char* name() const override { return "still"; }
   void learn(LumaView luma) override;
   void restart() override;
+  bool ready() const override { return started_ || learned_count_ > 0; }
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
   void absorb(LumaView luma, std::span<const Run> runs, int label) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
   float noise_sigma() const override { return noise_.sigma(); }
+  bool relit() const override { return relit_; }
   bool can_have_shadows() const override { return true; }
 
  private:
@@ -36,7 +39,9 @@ class Still final : public Background {
   std::span<uint8_t> learned_;  // kLearnFrames planes
   std::span<uint8_t> plane_;
   int learned_count_ = 0;
+  Light light_;
   bool started_ = false;
+  bool relit_ = false;
   uint32_t frames_ = 0;
   NoiseMeter noise_;
 };

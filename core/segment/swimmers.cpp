@@ -17,9 +17,10 @@ constexpr int kMissedFrames = 5;      // and after so many without it, it is for
 constexpr int kMostHeapFrames = 150;  // fish that stay over each other for longer are taken for one
 constexpr int kHiddenFrames = 20;     // a heap no larger than one fish for so long is one fish
 constexpr float kFishBeside = 0.35f;  // of the other's area: what is smaller is a part of it, or hides little of it
-constexpr float kOneFish = 1.2f;      // of its area
-constexpr float kSlowing = 0.97f;     // of the speed is left after a frame unseen
-constexpr int kConsidered = 256;      // blobs; where there are more they are specks
+constexpr float kSwum = 0.5f, kLikely = 0.2f;  // lengths; fish_likeness
+constexpr float kOneFish = 1.2f;               // of its area
+constexpr float kSlowing = 0.97f;              // of the speed is left after a frame unseen
+constexpr int kConsidered = 256;               // blobs; where there are more they are specks
 
 bool inside(const Box& box, Vec2 p, float margin) {
   return p.x >= static_cast<float>(box.x0) - margin && p.x < static_cast<float>(box.x1) + margin &&
@@ -256,13 +257,15 @@ void Swimmers::drop_doubles(std::span<const Blob> blobs) {
 // A fin that was a blob of its own for a while, a bubble: it and the fish whose blob this is make no heap.
 bool Swimmers::is_small_beside(const Swimmer& s, int blob) const {
   for (const Swimmer& other : all())
-    if (&other != &s && other.blob == blob && s.looks.area_px < kFishBeside * other.looks.area_px) return true;
+    if (&other != &s && other.blob == blob && s.looks.area_px < kFishBeside * other.area_px()) return true;
   return false;
 }
 
 // The blob in which a swimmer that has none of its own must be; -1 for none.
 int Swimmers::heap_of(const Swimmer& s, std::span<const Blob> blobs) const {
   if (s.frames < kKnownFrames || s.lost_frames > 0 || s.heap_frames > kMostHeapFrames) return -1;
+  // What nobody follows must have swum to be a fish: a line of light on the ground has not.
+  if (!s.followed && (s.travelled < kSwum || s.likeness < kLikely)) return -1;
   const Vec2 place = s.centroid + s.moved();
   int best = -1;
   float nearest = 0.5f * s.length_px() * s.patience();
@@ -308,18 +311,22 @@ bool Swimmers::hides_the_rest(const Swimmer& one) const {
   return one.alone_frames > kHiddenFrames;
 }
 
-// A part of a fish that is there already is no other fish.
-bool Swimmers::is_part(const Blob& blob) const {
-  for (const Swimmer& s : all())
-    if (s.blob >= 0 && inside(s.box, blob.centroid, 0) && static_cast<float>(blob.area_px) < 0.5f * s.looks.area_px)
+// A part of a fish that is there already is no other fish: one that is small, or one that with the fish's own blob makes
+// no more than the whole.
+bool Swimmers::is_part(const Blob& blob, std::span<const Blob> blobs) const {
+  for (const Swimmer& s : all()) {
+    if (s.blob < 0 || !inside(s.box, blob.centroid, 0)) continue;
+    const int both = blob.area_px + blobs[static_cast<std::size_t>(s.blob)].area_px;
+    if (static_cast<float>(blob.area_px) < 0.5f * s.area_px() || static_cast<float>(both) < 1.1f * s.area_px())
       return true;
+  }
   return false;
 }
 
 void Swimmers::welcome(std::span<const Blob> blobs) {
   for (int i = 0; i < static_cast<int>(blobs.size()) && i < kConsidered; ++i) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
-    if (blob.ghost || of_blob(i, blob.centroid) != nullptr || is_part(blob)) continue;
+    if (blob.ghost || of_blob(i, blob.centroid) != nullptr || is_part(blob, blobs)) continue;
     if (largest_px_ > 0 && blob.area_px > largest_px_) continue;
     begin(blob, i);
   }

@@ -66,6 +66,8 @@ class Swimmer {
   Vec2 moved() const;      // since it was last seen, by prediction
   float patience() const;  // grows while it is not seen
   float length_px() const { return length_px_; }
+  // Of the whole fish, where its outline has been seen: its blob may be but a part of it.
+  float area_px() const { return whole_area_px_ > looks.area_px ? whole_area_px_ : looks.area_px; }
 
  private:
   void move_to(Vec2 centre);
@@ -110,7 +112,7 @@ class Swimmers {
   void welcome(std::span<const Blob> blobs);
   void drop_the_lost();
   float cost(const Swimmer& swimmer, const Blob& blob, float luma) const;
-  bool is_part(const Blob& blob) const;
+  bool is_part(const Blob& blob, std::span<const Blob> blobs) const;
 
   std::array<Swimmer, kMostSwimmers> swimmers_{};
   std::array<float, kMostColumns> luma_{};  // of this frame's blobs

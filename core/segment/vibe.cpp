@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segment/vibe.h"
 
+#include <bit>
 #include <cstring>
 
 #include "core/segment/difference.h"
+#include "core/segment/fill.h"
 #include "core/segment/lanes.h"
 
 namespace nt {
@@ -61,13 +63,16 @@ Vibe* Vibe::create(Arena& arena, const BackgroundSettings& settings, int width, 
   auto samples = arena.take_raw<uint8_t>(plane * kSamples + 2 * kAlignment);
   auto estimate = arena.take_raw<uint8_t>(plane);
   auto chosen = arena.take_raw<uint8_t>(kTable + static_cast<std::size_t>(stride));
-  if (self.empty() || chosen.empty()) return nullptr;
+  auto guessed =
+      arena.take_raw<uint64_t>(static_cast<std::size_t>(words_for(width)) * static_cast<std::size_t>(height));
+  if (self.empty() || guessed.empty()) return nullptr;
   Vibe& vibe = self[0];
   vibe.settings_ = settings;
   vibe.width_ = width, vibe.height_ = height, vibe.stride_ = stride;
   vibe.samples_ = samples.subspan(kAlignment, plane * kSamples);
   vibe.plane_ = estimate;
   vibe.chosen_ = chosen;
+  vibe.guessed_ = {guessed.data(), width, height, words_for(width)};
   vibe.random_ = Random(seed);
   for (uint8_t& c : chosen) c = vibe.random_.below(kSubsampling) == 0 ? 255 : 0;
   return &vibe;
@@ -79,16 +84,18 @@ int Vibe::radius() const {
 }
 
 void Vibe::learn(LumaView luma) {
-  if (!started_) initialise(luma);
+  if (!started_) initialise(luma, nullptr);
 }
 
 void Vibe::restart() {
   started_ = false;
+  frames_ = 0;
   noise_.restart();
 }
 
-// The samples of a pixel are its own value and its neighbours' in the first frame (ViBe section III-B).
-void Vibe::initialise(LumaView luma) {
+// The samples of a pixel are its own value and its neighbours' in the first frame (ViBe section III-B). Where a fish
+// may hide the ground they are drawn from the ground beside it: guesses, which spread as the ground does.
+void Vibe::initialise(LumaView luma, const BitMask* unknown) {
   for (int y = 0; y < height_; ++y) {
     std::memcpy(plane_.data() + y * stride_, luma.row(y), static_cast<std::size_t>(width_));
     for (int k = 0; k < kSamples; ++k) {
@@ -100,7 +107,55 @@ void Vibe::initialise(LumaView luma) {
       std::memset(to + width_, from[width_ - 1], static_cast<std::size_t>(stride_ - width_));
     }
   }
+  guess_age_ = kGuessFrames;
+  if (unknown != nullptr) guess(*unknown);
+  light_.start(luma);
   started_ = true;
+}
+
+// One sample, too little for a match, remembers the pixel itself.
+void Vibe::guess(const BitMask& unknown) {
+  for (int k = 1; k < kSamples; ++k) fill_unknown(unknown, Fill::drawn, random_, sample_plane(k));
+  fill_unknown(unknown, Fill::mean, random_, {plane_.data(), width_, height_, stride_});
+  for (int i = 0; i < guessed_.words_per_row * height_; ++i) guessed_.words[i] = unknown.words[i];
+  guess_age_ = 0;
+}
+
+// A guessed pixel that has shown one and the same ground-like value over more than a beat of the tail is ground that was
+// never hidden, between the fins or beside the body. What moves there is the fish.
+void Vibe::settle_guess(LumaView luma) {
+  if (guess_age_ >= kGuessFrames || ++guess_age_ % 4 != 0) return;
+  uint8_t tail[64];
+  const int still = weak_threshold(noise_.sigma()), like_ground = radius();
+  for (int y = 0; y < height_; ++y) {
+    for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
+      uint64_t& guessed = guessed_.row(y)[x >> 6];
+      if (guessed == 0) return;
+      const uint8_t* samples = sample_row(0, y) + x;
+      uint64_t moved = 0;
+      for (uint64_t word = guessed; word != 0; word &= word - 1) {
+        const int i = std::countr_zero(word), d = at[i] - samples[i];
+        if (d > still || -d > still) moved |= uint64_t{1} << i;
+      }
+      guessed &= ~moved;
+      if (guess_age_ < kGuessFrames) return;
+      const uint64_t fish = classify_segment(at, samples, stride_ * height_, like_ground);
+      for (uint64_t word = guessed & ~fish; word != 0; word &= word - 1) {
+        const int i = std::countr_zero(word);
+        plane_[static_cast<std::size_t>(y * stride_ + x + i)] = at[i];
+        for (int k = 0; k < kSamples; k += 2) sample_row(k, y)[x + i] = at[i];
+      }
+    });
+  }
+}
+
+void Vibe::follow_light(LumaView luma, const BitMask* keep) {
+  const Relight relight = light_.update(luma, keep != nullptr);
+  relit_ = relight.all != 1.0f;
+  if (relit_) scale_pixels(relight.all, samples_), scale_pixels(relight.all, plane_);
+  if (relight.kept == 1.0f || keep == nullptr) return;
+  for (int k = 0; k < kSamples; ++k) scale_pixels(relight.kept, *keep, sample_plane(k));
+  scale_pixels(relight.kept, *keep, {plane_.data(), width_, height_, stride_});
 }
 
 void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep) {
@@ -126,13 +181,17 @@ void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const ui
 bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) {
   noise_.add(luma);
   if (!started_) {
-    initialise(luma);
+    relit_ = false;
+    initialise(luma, keep);
     for (int y = 0; y < height_; ++y)
       std::memset(foreground.row(y), 0, static_cast<std::size_t>(foreground.words_per_row) * 8);
     return false;
   }
+  follow_light(luma, keep);
+  settle_guess(luma);
   uint8_t tail[64];
   const int match = radius();
+  const int rounds = frames_ < kEagerFrames ? kEagerRounds : 1;
   const std::ptrdiff_t plane_stride = stride_ * height_;
   for (int y = 0; y < height_; ++y) {
     uint64_t* words = foreground.row(y);
@@ -140,7 +199,7 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
     for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
       words[x >> 6] = classify_segment(at, samples + x, plane_stride, match) & valid_bits(x, width_);
     });
-    update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
+    for (int round = 0; round < rounds; ++round) update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
   }
   follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
                     {plane_.data(), width_, height_, stride_});
@@ -149,7 +208,22 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
 
 void Vibe::absorb(LumaView luma, std::span<const Run> runs, int label) {
   copy_runs(luma, runs, label, {plane_.data(), width_, height_, stride_});
-  for (int k = 0; k < kSamples; ++k) copy_runs(luma, runs, label, {sample_row(k, 0), width_, height_, stride_});
+  for (int k = 0; k < kSamples; ++k) copy_runs(luma, runs, label, sample_plane(k));
+}
+
+void Vibe::clear_familiar(LumaView part, int x0, int y0, int threshold, const BitMask& differing) const {
+  // Twice the noise is not unrest: a camera that settles, quantisation.
+  const bool restless = light_.unrest() > 2.0f * noise_.sigma();
+  const int reach = min_int(restless ? max_int(threshold, weak_threshold(light_.unrest())) : threshold, radius());
+  uint8_t tail[64];
+  const std::ptrdiff_t plane_stride = stride_ * height_;
+  for (int y = 0; y < part.height; ++y) {
+    uint64_t* words = differing.row(y);
+    const uint8_t* samples = sample_row(0, y0 + y) + x0;
+    for_segments(part.row(y), part.width, tail, [&](int x, const uint8_t* at) {
+      if (words[x >> 6] != 0) words[x >> 6] &= classify_segment(at, samples + x, plane_stride, reach);
+    });
+  }
 }
 
 }  // namespace nt

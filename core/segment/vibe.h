@@ -15,6 +15,7 @@
 
 #include "core/base/random.h"
 #include "core/segment/background.h"
+#include "core/segment/light.h"
 #include "core/segment/noise.h"
 
 namespace nt {
@@ -24,6 +25,9 @@ class Vibe final : public Background {
   static constexpr int kSamples = 20;
   static constexpr int kMinMatches = 2;
   static constexpr int kSubsampling = 16;
+  // One frame says little of a surface that moves: at first each frame is learned as if it were several.
+  static constexpr int kEagerFrames = 60, kEagerRounds = 4;
+  static constexpr int kGuessFrames = 20;  // a beat of the tail
 
   static Vibe* create(Arena& arena, const BackgroundSettings& settings, int width, int height, uint64_t seed);
   Vibe() = default;
@@ -31,20 +35,27 @@ class Vibe final : public Background {
   const char* name() const override { return "vibe"; }
   void learn(LumaView luma) override;
   void restart() override;
+  bool ready() const override { return started_; }
   bool apply(LumaView luma, const BitMask* keep, const BitMask& foreground) override;
   void absorb(LumaView luma, std::span<const Run> runs, int label) override;
   LumaView estimate() const override { return {plane_.data(), width_, height_, stride_}; }
   float noise_sigma() const override { return noise_.sigma(); }
+  bool relit() const override { return relit_; }
+  void clear_familiar(LumaView part, int x0, int y0, int threshold, const BitMask& differing) const override;
   bool can_have_shadows() const override { return true; }
 
   int radius() const;
 
  private:
-  void initialise(LumaView luma);
+  void initialise(LumaView luma, const BitMask* unknown);
+  void guess(const BitMask& unknown);
+  void settle_guess(LumaView luma);
+  void follow_light(LumaView luma, const BitMask* keep);
   void update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep);
-  uint8_t* sample_row(int k, int y) {
+  uint8_t* sample_row(int k, int y) const {
     return samples_.data() + (static_cast<std::ptrdiff_t>(k) * height_ + y) * stride_;
   }
+  ImageView<uint8_t> sample_plane(int k) const { return {sample_row(k, 0), width_, height_, stride_}; }
 
   BackgroundSettings settings_;
   int width_ = 0, height_ = 0;
@@ -52,9 +63,13 @@ class Vibe final : public Background {
   std::span<uint8_t> samples_;  // kSamples planes
   std::span<uint8_t> plane_;    // sigma-delta estimate of the background
   std::span<uint8_t> chosen_;   // random table: 255 with probability 1 / kSubsampling, else 0
+  BitMask guessed_;             // hidden by a fish when the model was learned, as far as is known
+  int guess_age_ = kGuessFrames;
   Random random_;
   NoiseMeter noise_;
+  Light light_;
   bool started_ = false;
+  bool relit_ = false;
   uint32_t frames_ = 0;
 };
 

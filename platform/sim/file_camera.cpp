@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "platform/sim/frame_source.h"
+#include "platform/sim/half_chroma.h"
 
 namespace nt {
 namespace {
@@ -55,10 +56,13 @@ class FileCamera : public Camera {
     ++delivered_;
     Frame frame;
     frame.luma = {luma_.data, luma_.cols, luma_.rows, static_cast<std::ptrdiff_t>(luma_.step[0])};
+    if (with_chroma_) chroma_.give(rgb_, true, frame);
     frame.sequence = static_cast<uint64_t>(source_->index());
     frame.timestamp_ns = std::llround(static_cast<double>(source_->index()) * 1e9 / info_.fps);
     return frame;
   }
+
+  void give_chroma() override { with_chroma_ = true; }
 
   Picture picture() const override {
     Picture picture;
@@ -121,6 +125,8 @@ class FileCamera : public Camera {
   std::unique_ptr<FrameSource> source_;
   CameraInfo info_;
   cv::Mat decoded_, small_, luma_, rgb_;
+  HalfChroma chroma_;
+  bool with_chroma_ = false;
   bool pending_ = false;  // the first frame was decoded to learn its size and is still to be handed out
   bool ended_ = false;
   int64_t delivered_ = 0;

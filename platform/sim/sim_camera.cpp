@@ -57,6 +57,11 @@ std::optional<Frame> SimCamera::next() {
   if (info_.frame_count >= 0 && index >= info_.frame_count) return std::nullopt;
   Frame frame;
   frame.luma = shrunk(tank_->render_next());
+  if (with_chroma_) {
+    const Picture colour = picture();
+    const cv::Mat rgb(info_.height, info_.width, CV_8UC3, const_cast<uint8_t*>(colour.pixels));
+    chroma_.give(rgb, true, frame);
+  }
   frame.sequence = static_cast<uint64_t>(index);
   frame.timestamp_ns = std::llround(static_cast<double>(index) * 1e9 / info_.fps);
   return frame;

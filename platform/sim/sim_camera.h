@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "platform/camera.h"
+#include "platform/sim/half_chroma.h"
 #include "platform/sim/tank.h"
 
 namespace nt {
@@ -17,6 +18,7 @@ class SimCamera : public Camera {
   SimCamera(const TankSettings& settings, int64_t frames, int work_width, int work_height);
   const CameraInfo& info() const override { return info_; }
   std::optional<Frame> next() override;
+  void give_chroma() override { with_chroma_ = true; }
   Picture picture() const override;
   bool rewind() override;
   // Of the frame handed out last, in pixels of the tank; null before the first. Mask and contour only when asked for.
@@ -28,6 +30,8 @@ class SimCamera : public Camera {
   TankSettings settings_;
   CameraInfo info_;
   std::unique_ptr<Tank> tank_;
+  bool with_chroma_ = false;
+  HalfChroma chroma_;
   cv::Mat luma_;         // both only where the tank is larger than the working size
   mutable cv::Mat rgb_;  // made when it is asked for
 };

@@ -62,3 +62,11 @@ TEST(Alloc, NoneWithSeveralFish) {
   EXPECT_EQ(allocations_after_frame_0({.scene = "crossing", .width = 480, .height = 272}, 1500, poses, eight), 0);
   EXPECT_GT(poses, 800);
 }
+
+TEST(Alloc, NoneWhereALampGoesOnOrTheFirstFrameHoldsAFish) {
+  for (const char* scene : {"lamp", "station"}) {
+    int poses = 0;
+    EXPECT_EQ(allocations_after_frame_0({.scene = scene, .width = 320, .height = 180}, 300, poses), 0) << scene;
+    EXPECT_GT(poses, 150) << scene;
+  }
+}

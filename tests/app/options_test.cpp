@@ -15,6 +15,7 @@ TEST(Options, BackgroundModels) {
   EXPECT_EQ(parse_background("auto").kind, Kind::automatic);
   EXPECT_EQ(parse_background("vibe").kind, Kind::vibe);
   EXPECT_EQ(parse_background("backlit").kind, Kind::backlit);
+  EXPECT_EQ(parse_background("vibe-colour").kind, Kind::vibe_colour);
   EXPECT_EQ(parse_background("still").picture, "");
   EXPECT_EQ(parse_background("still:empty.png").kind, Kind::still);
   EXPECT_EQ(parse_background("still:empty.png").picture, "empty.png");

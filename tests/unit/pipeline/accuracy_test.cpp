@@ -11,17 +11,22 @@ namespace {
 using nt::test::Accuracy;
 using nt::test::quantile;
 
-class AccuracyTest : public testing::TestWithParam<const char*> {};
-
-TEST_P(AccuracyTest, KeepsItsPromise) {
+Accuracy three_seeds(const char* scene) {
   Accuracy sum;
   for (const uint64_t seed : {1, 2, 3}) {
     nt::test::AccuracyRun run;
-    run.tank.scene = GetParam();
+    run.tank.scene = scene;
     run.tank.seed = seed;
     run.frames = 400;
     sum.add(nt::test::measure_accuracy(run));
   }
+  return sum;
+}
+
+class AccuracyTest : public testing::TestWithParam<const char*> {};
+
+TEST_P(AccuracyTest, KeepsItsPromise) {
+  const Accuracy sum = three_seeds(GetParam());
   ASSERT_GT(sum.visible, 400);
   // A quarter above what is reached (docs/PERFORMANCE.md); short runs scatter a little.
   EXPECT_GE(sum.pose_share(), 0.995);
@@ -59,7 +64,8 @@ TEST(AccuracyOfAHandheldCamera, KeepsItsPromise) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest, testing::Values("calm", "turns", "hover", "forked", "round"),
+INSTANTIATE_TEST_SUITE_P(Scenes, AccuracyTest,
+                         testing::Values("calm", "turns", "hover", "forked", "round", "ghost", "lamp"),
                          [](const auto& test) { return std::string(test.param); });
 
 // Scenes that try the tracking: what is pinned is who is followed and for how long nobody is.
@@ -84,5 +90,25 @@ TEST_P(TrackingAccuracyTest, KeepsItsFish) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TrackingAccuracyTest, testing::Values("leave", "dirt", "crossing"),
                          [](const auto& test) { return std::string(test.param); });
+
+// The ground under the fish is never seen: it is guessed, and so are the pixels of the outline that border on it.
+TEST(AccuracyTestOfTheGround, AFishThatHoldsItsPlaceFromTheFirstFrameIsFound) {
+  const Accuracy sum = three_seeds("station");
+  ASSERT_GT(sum.visible, 1000);
+  EXPECT_GE(sum.pose_share(), 0.995);
+  EXPECT_LE(sum.wrong_end, 1);
+  EXPECT_EQ(sum.false_poses, 0);
+  EXPECT_LE(quantile(sum.midline, 0.5), 0.30);
+  EXPECT_LE(quantile(sum.head, 0.5), 0.65);
+}
+
+TEST(AccuracyTestOfTheGround, LightThatWandersOverItIsNoFish) {
+  const Accuracy sum = three_seeds("surface");
+  ASSERT_GT(sum.visible, 400);
+  EXPECT_GE(sum.pose_share(), 0.993);
+  EXPECT_LE(sum.wrong_end, 2);
+  EXPECT_LE(sum.false_poses, 4);  // a fish that swims in, its tail still outside
+  EXPECT_LE(quantile(sum.midline, 0.5), 0.60);
+}
 
 }  // namespace

@@ -38,7 +38,7 @@ class MarkerPuppet {
   const std::vector<Vec3>& targets() const { return targets_; }          // this frame's markers, on the mesh
   const BuiltLattice& built() const { return built_; }
   const Lattice& lattice() const { return *lattice_; }
-  const Similarity& registration() const { return registration_; }
+  const Registration& registration() const { return registration_; }
   Vec3 vertex(std::size_t mesh_vertex) const;
   double volume() const;  // of the mesh, by the divergence theorem
   // Of the last step; an average over the markers that are seen, in the mesh's unit.
@@ -47,7 +47,7 @@ class MarkerPuppet {
  private:
   struct Memory;
   std::vector<std::size_t> used_;
-  Similarity registration_;
+  Registration registration_;
   BuiltLattice built_;
   std::unique_ptr<Memory> memory_;
   Lattice* lattice_ = nullptr;

@@ -44,7 +44,7 @@ Vec3 nearest(Vec3 p, const std::vector<Vec3>& points) {
 }
 
 // Horn's rotation and Umeyama's scale that take a to b.
-Similarity fit(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+Registration fit(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   const Vec3 ca = mean(a), cb = mean(b);
   float s[9] = {};
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -54,7 +54,7 @@ Similarity fit(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
       for (std::size_t c = 0; c < 3; ++c) s[3 * r + c] += from[r] * to[c];
     }
   }
-  Similarity out;
+  Registration out;
   out.turn = best_rotation(s);
   float along = 0.0f, square = 0.0f;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -107,7 +107,8 @@ Quat parse_axes(const std::string& axes) {
   return best_rotation(s);
 }
 
-Similarity register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh, std::span<const Quat> turns) {
+Registration register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh,
+                              std::span<const Quat> turns) {
   constexpr std::size_t kMost = 4000;  // mesh vertices that are looked at
   constexpr int kRounds = 40;
   std::vector<Vec3> from, to;
@@ -122,11 +123,11 @@ Similarity register_markers(std::span<const Vec3> markers, const std::vector<Vec
   const Bounds from_box = bounds(from), to_box = bounds(mesh);
   const float scale = to_box.diagonal() / std::max(from_box.diagonal(), 1e-9f);
   const std::vector<Quat> all = axis_turns();
-  Similarity best;
+  Registration best;
   best.rms = std::numeric_limits<float>::infinity();
   std::vector<Vec3> targets(from.size());
   for (const Quat& turn : turns.empty() ? std::span<const Quat>(all) : turns) {
-    Similarity now;
+    Registration now;
     now.turn = turn, now.scale = scale;
     now.shift = to_box.centre() - rotate(turn, scale * from_box.centre());
     for (int round = 0; round < kRounds; ++round) {

@@ -14,7 +14,7 @@
 
 namespace nt {
 
-struct Similarity {
+struct Registration {
   Quat turn;
   float scale = 1.0f;
   Vec3 shift;
@@ -26,6 +26,7 @@ struct Similarity {
 Quat parse_axes(const std::string& axes);
 
 // Markers that are not seen are left out; UserError with fewer than four. turns: what to start from; empty: all 24.
-Similarity register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh, std::span<const Quat> turns);
+Registration register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh,
+                              std::span<const Quat> turns);
 
 }  // namespace nt

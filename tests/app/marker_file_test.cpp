@@ -174,7 +174,7 @@ TEST(RegistrationTest, FindsTurnScaleAndShift) {
   std::vector<Vec3> markers;
   for (std::size_t k = 0; k < mesh.size(); k += 50)
     markers.push_back(rotate(conjugate(turn), 1000.0f * mesh[k]) + Vec3{500, 0, 90});
-  const Similarity s = register_markers(markers, mesh, std::vector<Quat>{turn});
+  const Registration s = register_markers(markers, mesh, std::vector<Quat>{turn});
   EXPECT_LT(s.rms, 0.08f);
   float error = 0.0f;
   for (std::size_t k = 0; k < markers.size(); ++k) error += length(s(markers[k]) - mesh[50 * k]);

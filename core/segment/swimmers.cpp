@@ -81,6 +81,7 @@ void Swimmer::see(const Blob& of, float luma, bool alone) {
   lost_frames = heap_frames = 0;
   in_heap = false;
   ++frames;
+  last_box = box;
   box = of.box;
   move_to(of.centroid);
   likeness += (fish_likeness(of) - likeness) * 0.2f;
@@ -257,7 +258,9 @@ void Swimmers::drop_doubles(std::span<const Blob> blobs) {
 // A fin that was a blob of its own for a while, a bubble: it and the fish whose blob this is make no heap.
 bool Swimmers::is_small_beside(const Swimmer& s, int blob) const {
   for (const Swimmer& other : all())
-    if (&other != &s && other.blob == blob && s.looks.area_px < kFishBeside * other.area_px()) return true;
+    if (&other != &s && other.blob == blob &&
+        (s.part_of == other.id || s.looks.area_px < kFishBeside * other.area_px()))
+      return true;
   return false;
 }
 
@@ -290,6 +293,8 @@ void Swimmers::find_heaps(std::span<const Blob> blobs) {
   for (Swimmer& s : all())
     if (s.blob < 0) s.blob = heap_of(s, blobs);
   for (Swimmer& s : all()) {
+    const Swimmer* whole = find(s.part_of);
+    if (whole == nullptr || length(whole->centroid - s.centroid) > whole->length_px()) s.part_of = 0;
     if (s.blob < 0) {
       ++s.lost_frames;
       s.in_heap = false;
@@ -328,7 +333,10 @@ void Swimmers::welcome(std::span<const Blob> blobs) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
     if (blob.ghost || of_blob(i, blob.centroid) != nullptr || is_part(blob, blobs)) continue;
     if (largest_px_ > 0 && blob.area_px > largest_px_) continue;
-    begin(blob, i);
+    uint32_t whole = 0;
+    for (const Swimmer& s : all())
+      if (s.blob >= 0 && !s.in_heap && s.frames > kKnownFrames && inside(s.last_box, blob.centroid, 0)) whole = s.id;
+    if (Swimmer* born = begin(blob, i)) born->part_of = whole;
   }
 }
 

@@ -32,20 +32,23 @@ struct Looks {
 
 class Swimmer {
  public:
-  uint32_t id = 0;        // 0: nobody
-  int blob = -1;          // in this frame; -1 when it is not seen
-  bool in_heap = false;   // another one is in the same blob
-  Vec2 centroid;          // as last seen, or where it must be by now in a heap
-  Vec2 velocity;          // pixels a frame, smoothed
-  Box box;                // of the whole fish, as last observed
-  Looks looks;            // of its blobs
-  Vec2 first;             // where it was first seen
-  float travelled = 0;    // the greatest distance from there, in lengths
-  float likeness = 0;     // smoothed fish_likeness
-  int frames = 0;         // in which it was seen
-  int lost_frames = 0;    // since it was seen last
-  int heap_frames = 0;    // that it has been in a heap
-  int alone_frames = 0;   // that it has shared a blob no larger than itself
+  uint32_t id = 0;       // 0: nobody
+  int blob = -1;         // in this frame; -1 when it is not seen
+  bool in_heap = false;  // another one is in the same blob
+  Vec2 centroid;         // as last seen, or where it must be by now in a heap
+  Vec2 velocity;         // pixels a frame, smoothed
+  Box box;               // of the whole fish, as last observed
+  Looks looks;           // of its blobs
+  Vec2 first;            // where it was first seen
+  float travelled = 0;   // the greatest distance from there, in lengths
+  float likeness = 0;    // smoothed fish_likeness
+  int frames = 0;        // in which it was seen
+  int lost_frames = 0;   // since it was seen last
+  int heap_frames = 0;   // that it has been in a heap
+  int alone_frames = 0;  // that it has shared a blob no larger than itself
+  uint32_t part_of =
+      0;         // broke off this one's blob and has never been a length away from it: light broke the fish in two
+  Box last_box;  // before this frame
   bool followed = false;  // somebody wants to know: it is kept longer
 
   void start(const Blob& blob, uint32_t new_id);

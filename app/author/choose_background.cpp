@@ -139,9 +139,9 @@ double first_place_covered(const std::vector<cv::Mat>& frames, const cv::Mat& ty
   return covered / static_cast<double>(frames.size());
 }
 
-}  // namespace
-
-std::vector<cv::Mat> spread_frames(Camera& camera) {
+// What `look` makes of 24-48 frames spread evenly over the first kLookFrames; the camera is rewound.
+template <class Look>
+std::vector<cv::Mat> spread(Camera& camera, Look look) {
   std::vector<cv::Mat> kept;
   if (!camera.rewind()) return kept;
   int64_t step = 1;
@@ -149,10 +149,7 @@ std::vector<cv::Mat> spread_frames(Camera& camera) {
     const std::optional<Frame> frame = camera.next();
     if (!frame) break;
     if (n % step != 0) continue;
-    const LumaView& luma = frame->luma;
-    kept.push_back(
-        cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data), static_cast<std::size_t>(luma.stride))
-            .clone());
+    kept.push_back(look(*frame));
     if (kept.size() < 2 * kKeep) continue;
     for (std::size_t i = 0; i < kKeep; ++i) kept[i] = kept[2 * i];
     kept.resize(kKeep);
@@ -160,6 +157,27 @@ std::vector<cv::Mat> spread_frames(Camera& camera) {
   }
   camera.rewind();
   return kept;
+}
+
+}  // namespace
+
+std::vector<cv::Mat> spread_frames(Camera& camera) {
+  return spread(camera, [](const Frame& frame) {
+    const LumaView& luma = frame.luma;
+    return cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data),
+                   static_cast<std::size_t>(luma.stride))
+        .clone();
+  });
+}
+
+std::vector<cv::Mat> spread_pictures(Camera& camera) {
+  return spread(camera, [&camera](const Frame&) {
+    const Picture picture = camera.picture();
+    const int type = picture.format == PixelFormat::luma8 ? CV_8UC1 : CV_8UC3;
+    return cv::Mat(picture.height, picture.width, type, const_cast<uint8_t*>(picture.pixels),
+                   static_cast<std::size_t>(picture.stride))
+        .clone();
+  });
 }
 
 BackgroundChoice choose_background(const std::vector<cv::Mat>& frames) {

@@ -24,6 +24,7 @@ inline constexpr int kLookFrames = 600;  // 20 s at 30 frames a second
 // 24-48 luma frames spread evenly over the first kLookFrames (fewer in a short clip); the camera is rewound.
 // Empty when the camera cannot rewind.
 std::vector<cv::Mat> spread_frames(Camera& camera);
+std::vector<cv::Mat> spread_pictures(Camera& camera);  // the same of the camera's pictures: grey, or rgb
 
 struct BackgroundChoice {
   BackgroundKind kind = BackgroundKind::vibe;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "app/actor.h"
+#include "app/cast.h"
 #include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/film.h"
@@ -21,7 +21,7 @@
 #include "app/export/report.h"
 #include "app/progress.h"
 #include "app/session.h"
-#include "app/ui/colours.h"
+#include "app/ui/backdrop.h"
 #include "app/ui/overlay.h"
 #include "core/motion/inbetween.h"
 
@@ -33,10 +33,11 @@ constexpr int kAsManyAsFit = -1;
 
 struct Options {
   CaptureOptions capture;
-  std::string character, out, contact_sheet, csv, json;
+  CastOptions cast;
+  BackdropOption backdrop;
+  std::string out, contact_sheet, csv, json;
   bool side_by_side = false;
   int inbetweens = kAsManyAsFit;
-  Colour backdrop = kWater;
 };
 
 int inbetweens_for(const Options& options, double fps) {
@@ -48,19 +49,20 @@ int inbetweens_for(const Options& options, double fps) {
 class Stage {
  public:
   Stage(const Options& options, Session& session)
-      : actor_(options.character),
+      : cast_(options.cast, session.info().fps),
         overlay_pane_(pane_for(session.info().width, session.info().height)),
         actor_pane_(options.side_by_side ? beside(overlay_pane_) : overlay_pane_),
         overlay_(overlay_pane_),
         side_by_side_(options.side_by_side),
-        backdrop_(options.backdrop) {}
+        backdrop_(options.backdrop, actor_pane_, session) {}
 
   int width() const { return actor_pane_.width * (side_by_side_ ? 2 : 1); }
   int height() const { return actor_pane_.height; }
 
   // The frame of the last step, after n in-betweens that lead to it from the frame before.
   void play(Session& session, int n, double fps, Film& film) {
-    actor_.see(session);
+    cast_.see(session);
+    backdrop_.update(session);
     const float dt_s = static_cast<float>(1.0 / (fps * (n + 1)));
     for (int k = 0; k < n && session.frame_index() > 0; ++k) show(in_between_fraction(k, n), dt_s, film);
     if (side_by_side_) overlay_.update(session);
@@ -69,25 +71,38 @@ class Stage {
 
  private:
   void show(float t, float dt_s, Film& film) {
-    scene_.clear(width(), height(), backdrop_);
-    actor_.pose(t, dt_s, actor_pane_);
-    actor_.draw(scene_);
+    scene_.clear(width(), height(), backdrop_.colour());
+    cast_.pose(t, dt_s, actor_pane_);
+    backdrop_.draw(scene_);
+    cast_.draw(scene_);
     if (side_by_side_) overlay_.draw(scene_);  // last: it hides what of the character leaves its own pane
     film.add(scene_);
   }
 
-  Actor actor_;
+  Cast cast_;
   Pane overlay_pane_, actor_pane_;
   Overlay overlay_;
   bool side_by_side_;
-  Colour backdrop_;
+  Backdrop backdrop_;
   Scene scene_;
 };
 
-void animate(const Options& options) {
+void check(const Options& options) {
+  const std::size_t shown = static_cast<std::size_t>(options.cast.school);
+  if (options.cast.characters.size() > shown) {
+    throw UserError("--character: " + std::to_string(options.cast.characters.size()) + " characters for " +
+                        std::to_string(shown) + " drawing" + (shown > 1 ? "s" : "") +
+                        "; leave some out, or ask for --school " + std::to_string(options.cast.characters.size()),
+                    2);
+  }
   std::vector<std::string> inputs = inputs_of(options.capture);
-  inputs.push_back(options.character);
+  inputs.insert(inputs.end(), options.cast.characters.begin(), options.cast.characters.end());
+  inputs.push_back(options.backdrop.path);
   check_outputs(inputs, {options.out, options.contact_sheet, options.csv, options.json});
+}
+
+void animate(const Options& options) {
+  check(options);
   Session session(options.capture);
   Stage stage(options, session);
   const double fps = session.info().fps;
@@ -120,9 +135,7 @@ void add_animate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("animate", "Make a video in which the character swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
-  command->add_option("--character", options->character, "a character file, or a picture with a transparent ground")
-      ->type_name("FILE")
-      ->required();
+  add_cast_options(*command, options->cast);
   command->add_option("-o,--out", options->out, "the video")->type_name("FILE.mp4")->required();
   command->add_flag("--side-by-side", options->side_by_side, "the camera with its overlay on the left");
   command
@@ -135,11 +148,7 @@ void add_animate(CLI::App& app, Action& action) {
       ->type_name("FILE.png");
   command->add_option("--csv", options->csv, "one row of pose a frame ('-' = standard output)")->type_name("FILE");
   command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");
-  command
-      ->add_option_function<std::string>(
-          "--backdrop", [options](const std::string& s) { options->backdrop = parse_colour(s); },
-          "colour behind the character, #RRGGBB (default #1B4B5A)")
-      ->type_name("COLOUR");
+  add_backdrop_option(*command, [options](const BackdropOption& backdrop) { options->backdrop = backdrop; });
   command->footer("Example: neontetra animate -c trout.avi --character carp.ntchar --out trout.mp4 --side-by-side");
   command->callback([&action, options] { action = [options] { animate(*options); }; });
 }

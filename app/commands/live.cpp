@@ -4,19 +4,22 @@
 // A file or the tank plays at its own frame rate; frames that come too late are skipped and counted as dropped. A
 // source that decodes slower than that plays as fast as it can (Pacer), and the window still answers.
 // The character is drawn between the last two video frames, so it follows the fish by one video frame, never more.
+// Layouts: the camera beside the character; the camera behind it; the character alone, on its backdrop.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
-#include "app/actor.h"
+#include "app/cast.h"
+#include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/recording.h"
 #include "app/export/report.h"
 #include "app/pacer.h"
 #include "app/session.h"
-#include "app/ui/colours.h"
+#include "app/ui/backdrop.h"
+#include "app/ui/hud.h"
 #include "app/ui/overlay.h"
 #include "app/ui/window.h"
 #include "platform/linux/clock.h"
@@ -26,13 +29,16 @@ namespace {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
 constexpr int64_t kDrawPeriod_ns = kSecond_ns / 60;
-constexpr int64_t kHudPeriod_ns = kSecond_ns / 2;
-constexpr const char* kKeys = "click fish  space pause  b background  n next  r record  q quit";
+constexpr const char* kKeys =
+    "click fish  space pause  b background  n next fish  c next character  i info  r record  q quit";
 
 struct Options {
   CaptureOptions capture;
-  std::string character;
+  CastOptions cast;
+  BackdropOption backdrop;
+  bool has_backdrop = false;
   std::string layout = "beside";
+  std::string info_text = kDefaultInfo;
   std::string record_to = "neontetra";
   std::string json;
 };
@@ -42,11 +48,12 @@ class Live {
   explicit Live(const Options& options)
       : options_(options),
         session_(options.capture),
-        actor_(options.character),
+        cast_(options.cast, session_.info().fps),
         camera_pane_(pane_for(session_.info().width, session_.info().height)),
         actor_pane_(options.layout == "beside" ? beside(camera_pane_) : camera_pane_),
         overlay_(camera_pane_),
-        hud_(kFirstTextPicture + 1),
+        backdrop_(options.backdrop, actor_pane_, session_),
+        hud_(options.info_text),
         display_(
             open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height)),
         pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {}
@@ -91,6 +98,12 @@ class Live {
       case 'n':
         session_.capture().select_next();
         break;
+      case 'c':
+        cast_.next_character();
+        break;
+      case 'i':
+        hud_.toggle();
+        break;
       case 'r':
         toggle_recording();
         break;
@@ -101,7 +114,7 @@ class Live {
       default:
         break;
     }
-    hud_due_ns_ = 0;
+    hud_.renew();
   }
 
   void toggle_recording() {
@@ -122,8 +135,9 @@ class Live {
     }
     if (!session_.step(due_ns)) return false;
     frame_shown_ns_ = now_ns;
-    actor_.see(session_);
-    overlay_.update(session_, true);
+    cast_.see(session_);
+    if (options_.layout != "alone") overlay_.update(session_, true);
+    backdrop_.update(session_);
     if (recording_ != nullptr) {
       compose();
       recording_->add(session_, scene_);
@@ -132,54 +146,39 @@ class Live {
   }
 
   void compose() {
-    scene_.clear(static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height, kWater);
+    scene_.clear(static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height, backdrop_.colour());
     const bool behind = options_.layout == "behind";
     if (behind) overlay_.draw(scene_);
-    actor_.draw(scene_);
-    if (!behind) overlay_.draw(scene_);  // last: it hides what of the character leaves its own pane
+    else backdrop_.draw(scene_);
+    cast_.draw(scene_);
+    if (options_.layout == "beside") overlay_.draw(scene_);  // last: it hides what of the character leaves its own pane
   }
 
   void draw() {
     const int64_t now_ns = steady_now_ns();
     const auto part = static_cast<float>(now_ns - frame_shown_ns_) / static_cast<float>(pacer_.period_ns());
     if (!paused_) {
-      actor_.pose(std::clamp(part, 0.01f, 1.0f), static_cast<float>(now_ns - last_draw_ns_) * 1e-9f, actor_pane_);
+      cast_.pose(std::clamp(part, 0.01f, 1.0f), static_cast<float>(now_ns - last_draw_ns_) * 1e-9f, actor_pane_);
     }
     last_draw_ns_ = now_ns;
     compose();
-    ++drawn_;
-    update_hud(now_ns);
-    hud_.draw(scene_, {8, static_cast<float>(scene_.height()) - 90});
-    display_->draw(scene_);
-  }
-
-  void update_hud(int64_t now_ns) {
-    if (now_ns < hud_due_ns_) return;
-    const Statistics& statistics = session_.statistics();
-    const double seconds = static_cast<double>(now_ns - hud_last_ns_) * 1e-9;
-    char lines[400];
-    int used =
-        std::snprintf(lines, sizeof lines, "%.0f frames/s, %.0f drawn/s, %lld dropped%s%s\n",
-                      static_cast<double>(statistics.frames - hud_frames_) / seconds,
-                      static_cast<double>(drawn_ - hud_drawn_) / seconds, static_cast<long long>(statistics.dropped),
-                      paused_ ? ", paused" : "", recording_ != nullptr ? ", recording" : "");
-    used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used),
-                          "%.2f ms:", statistics.total.quantile_ns(0.5) * 1e-6);
-    for (std::size_t s = 0; s < kStages; ++s) {
-      used += std::snprintf(lines + used, sizeof lines - static_cast<std::size_t>(used), "%s %s %.2f",
-                            s == kStages / 2 ? "\n" : "", kStageNames[s], statistics.stages[s].quantile_ns(0.5) * 1e-6);
+    hud_.drawn();
+    if (hud_.due(now_ns)) {
+      hud_.update(now_ns, session_.statistics(),
+                  {std::string(paused_ ? ", paused" : "") + (recording_ != nullptr ? ", recording" : ""),
+                   cast_.character_name(), kKeys});
     }
-    hud_.set(std::string(lines) + "\n" + kKeys);
-    hud_last_ns_ = now_ns, hud_frames_ = statistics.frames, hud_drawn_ = drawn_;
-    hud_due_ns_ = now_ns + kHudPeriod_ns;
+    hud_.draw(scene_);
+    display_->draw(scene_);
   }
 
   const Options& options_;
   Session session_;
-  Actor actor_;
+  Cast cast_;
   Pane camera_pane_, actor_pane_;
   Overlay overlay_;
-  Text hud_;
+  Backdrop backdrop_;
+  Hud hud_;
   std::unique_ptr<Display> display_;
   Pacer pacer_;
   std::vector<InputEvent> events_;
@@ -187,9 +186,17 @@ class Live {
   std::unique_ptr<Recording> recording_;
   bool paused_ = false, quit_ = false;
   int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
-  int64_t drawn_ = 0;
-  int64_t hud_due_ns_ = 0, hud_last_ns_ = 0, hud_frames_ = 0, hud_drawn_ = 0;
 };
+
+void check(const Options& options) {
+  if (options.has_backdrop && options.layout == "behind") {
+    throw UserError("--backdrop: with --layout behind the camera's picture is the backdrop; take beside or alone", 2);
+  }
+  std::vector<std::string> inputs = inputs_of(options.capture);
+  inputs.insert(inputs.end(), options.cast.characters.begin(), options.cast.characters.end());
+  inputs.push_back(options.backdrop.path);
+  check_outputs(inputs, {options.json});
+}
 
 }  // namespace
 
@@ -198,20 +205,36 @@ void add_live(CLI::App& app, Action& action) {
       app.add_subcommand("live", "Open a window: the camera beside the character that swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
-  command->add_option("--character", options->character, "a character file, or a picture with a transparent ground")
-      ->type_name("FILE")
-      ->required();
+  add_cast_options(*command, options->cast);
   command
       ->add_option("--layout", options->layout,
-                   "beside: camera left, character right; behind: character over the camera")
-      ->type_name("beside|behind")
-      ->check(CLI::IsMember({"beside", "behind"}));
+                   "beside: camera left, character right; behind: character over the camera; alone: character only")
+      ->type_name("beside|behind|alone")
+      ->check(CLI::IsMember({"beside", "behind", "alone"}));
+  add_backdrop_option(*command, [options](const BackdropOption& backdrop) {
+    options->backdrop = backdrop;
+    options->has_backdrop = true;
+  });
+  command
+      ->add_option_function<std::string>(
+          "--info-text",
+          [options](const std::string& text) {
+            check_info_text(text);
+            options->info_text = text;
+          },
+          std::string("the lines in the window, '' for none; filled in: ") + kInfoNames)
+      ->type_name("TEXT");
   command->add_option("--record-to", options->record_to, "what r records: PREFIX-1.csv and PREFIX-1.mp4, then -2, ...")
       ->type_name("PREFIX");
   command->add_option("--json", options->json, "report of the run at its end ('-' = standard output)")
       ->type_name("FILE");
   command->footer(std::string("Keys: ") + kKeys + "\nExample: neontetra live -c sim --character carp.ntchar");
-  command->callback([&action, options] { action = [options] { Live(*options).run(); }; });
+  command->callback([&action, options] {
+    action = [options] {
+      check(*options);
+      Live(*options).run();
+    };
+  });
 }
 
 }  // namespace nt

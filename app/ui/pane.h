@@ -40,9 +40,10 @@ inline Pane beside(Pane left) {
 // Texture slots of the pictures that the app itself shows.
 enum PictureId : uint32_t {
   kCameraPicture = 1,
-  kCharacterPicture = 2,
+  kBackdropPicture = 2,
   kFirstTextPicture = 16,
-  kFirstNumberPicture = 32
+  kFirstNumberPicture = 32,
+  kFirstCharacterPicture = 64  // one a character
 };
 
 }  // namespace nt

@@ -126,6 +126,19 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
   return Result<Retarget*>(&self[0]);
 }
 
+Result<Retarget*> Retarget::twin(Arena& arena, const Retarget& of) {
+  Retarget r = of;
+  r.started_ = false;
+  const std::span<Retarget> self = arena.take<Retarget>(1);
+  r.vertices_ = arena.take<Vec2>(of.vertices_.size());
+  r.filter_ = {};
+  r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
+  if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));
+  if (arena.full()) return Status{StatusCode::out_of_memory, "no memory for the character; raise max_vertices"};
+  self[0] = r;
+  return Result<Retarget*>(&self[0]);
+}
+
 // Whether no triangle turns over or is crushed when one fin alone stands at `open`.
 bool Retarget::fin_fits(const Fin& fin, float open) {
   for (std::size_t i = 0; i < control_count_; ++i) points_[i] = rest_[i];

@@ -64,6 +64,10 @@ class Retarget {
   // search for the fins' ranges). The arena may be measuring: then the pointer is null.
   static Result<Retarget*> create(Arena& arena, const Character& character, const RetargetSettings& settings);
 
+  // Another one for the same character, with a pose and filters of its own; it shares what `of` has precomputed, so `of`
+  // must outlive it. Null when the arena is measuring. Memory: 8 bytes per vertex.
+  static Result<Retarget*> twin(Arena& arena, const Retarget& of);
+
   // Forgets the filters' state; init_len (pixels) is the fish's axis length in the first tracked frame (Eq 15).
   void start(float init_len_px);
   // Poses the character; the spans below stay valid until the next call. dt_s is the time since the last call; 0 or a
@@ -73,6 +77,9 @@ class Retarget {
   std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
   const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
   const BoneLengths& lengths() const { return lengths_; }
+  // All control points that move the vertices, at rest and as posed (and filtered) last; character units, local frame.
+  std::span<const Vec2> rest_handles() const { return {rest_, control_count_}; }
+  std::span<const Vec2> handles() const { return {points_, control_count_}; }
   // M0: the motion that poses the character as it was drawn (swimming up the screen, centre at 0), [F] section 6.2.
   Motion rest_motion() const;
   // Where the drawing's fins go while the fish's go through kFishFins; never wider than that.

@@ -402,6 +402,11 @@ std::span<const Vec2> Capture::smooth_contour(int fish) const {
   const FishTrack& one = impl(*this).the_fish(fish);
   return one.pose.ok() ? one.smooth : std::span<const Vec2>{};
 }
+BitMask Capture::foreground() const { return impl(*this).open; }
+BitMask Capture::around_fish() {
+  const BitMask* mask = impl(*this).protected_pixels();
+  return mask != nullptr ? *mask : BitMask{};
+}
 const char* Capture::background_name() const { return impl(*this).background->name(); }
 const Similarity& Capture::camera_motion() const { return impl(*this).frame_from_reference; }
 bool Capture::stabilising() const { return impl(*this).stabiliser != nullptr && impl(*this).stabiliser->active(); }

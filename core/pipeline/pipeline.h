@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/image_view.h"
 #include "core/base/limits.h"
 #include "core/base/similarity.h"
 #include "core/base/stage_clock.h"
@@ -106,6 +107,10 @@ class Capture {
   // Original outline of the fish, last step, and its elliptic Fourier reconstruction; empty without a pose.
   std::span<const Vec2> contour(int fish = kTarget) const;
   std::span<const Vec2> smooth_contour(int fish = kTarget) const;
+  // Of the last step, frame coordinates: what differs from the background, opened; the fish and their shadows, grown, as they
+  // are kept from being learned (without words where there are none).
+  BitMask foreground() const;
+  BitMask around_fish();
   const char* background_name() const;
   // Where the camera has gone since the background was learned: pixels of that first frame -> pixels of the last one. The
   // identity where the motion is not taken out.

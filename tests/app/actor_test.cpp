@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/cast.h"
 #include "app/session.h"
 
 namespace nt {
@@ -14,12 +15,13 @@ TEST(Actor, AppearsWhereTheFishIsAfterAGap) {
   options.camera = parse_camera_spec("sim:scene=leave,seed=1,size=480x272");
   options.background = parse_background("vibe");
   Session session(options);
-  Actor actor(NEONTETRA_ASSETS "/characters/carp.png");
+  const Wardrobe wardrobe({NEONTETRA_ASSETS "/characters/carp.png"}, {});
+  Actor actor(wardrobe, 0);
   const Pane pane = pane_for(480, 272);
   bool seen = false;
   int missed = 0;
   for (int i = 0; i < 900 && session.step(); ++i) {
-    actor.see(session);
+    actor.see(sighting_of(session));
     actor.pose(1, 1 / 30.0f, pane);
     const bool ok = session.report().status == PoseStatus::ok;
     if (ok && seen && missed > 15) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cast.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/det_math.h"
+
+namespace nt {
+namespace {
+
+constexpr int kMostInSchool = 24;
+// A school's shape: how late each follower is after the one before, where it swims, how large it is drawn.
+constexpr double kDelay_s = 0.12;
+constexpr float kAside_bl = 0.42f, kBack_bl = 0.5f;  // from one row to the next, body lengths
+constexpr float kFollowerSize = 0.8f;
+
+RetargetSettings retarget_settings(const CastOptions& options) {
+  RetargetSettings settings;
+  settings.mls = options.mls;
+  return settings;
+}
+
+std::size_t delay_frames(double fps) { return static_cast<std::size_t>(std::max(1L, std::lround(kDelay_s * fps))); }
+
+}  // namespace
+
+void add_cast_options(CLI::App& command, CastOptions& options) {
+  command
+      .add_option(
+          "--character", options.characters,
+          "a character file, or a picture with a transparent ground; give it several times for several characters")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->required();
+  command.add_option("--school", options.school, "so many drawings follow one another (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostInSchool));
+  const std::map<std::string, MlsKind> kinds = {
+      {"rigid", MlsKind::rigid}, {"similarity", MlsKind::similarity}, {"affine", MlsKind::affine}};
+  command
+      .add_option_function<std::string>(
+          "--mls", [&options, kinds](const std::string& name) { options.mls = kinds.at(name); },
+          "how the drawing gives way between its control points: rigid keeps sizes (default), similarity lets parts "
+          "grow and shrink, affine lets them shear too")
+      ->type_name("rigid|similarity|affine")
+      ->check(CLI::IsMember({"rigid", "similarity", "affine"}));
+}
+
+Cast::Cast(const CastOptions& options, double fps)
+    : wardrobe_(options.characters, retarget_settings(options)),
+      delay_frames_(delay_frames(fps)),
+      trail_(delay_frames_ * static_cast<std::size_t>(options.school - 1) + 1) {
+  for (std::size_t place = 0; place < static_cast<std::size_t>(options.school); ++place)
+    actors_.emplace_back(wardrobe_, place % wardrobe_.size(), place == 0 ? 1.0f : kFollowerSize);
+}
+
+// Rows of two behind the leader, the left one first.
+Sighting Cast::followed(std::size_t place) const {
+  Sighting sighting = trail_.before(place * delay_frames_);
+  if (place == 0 || !sighting.seen) return sighting;
+  const auto row = static_cast<float>((place + 1) / 2);
+  const float side = place % 2 == 1 ? -1.0f : 1.0f;
+  const det::SinCos a = det::sincos(sighting.motion.dir_rad);
+  const Vec2 dir{a.cos, a.sin};
+  sighting.motion.centre += (right_of(dir) * (side * kAside_bl) - dir * kBack_bl) * (row * sighting.init_len);
+  return sighting;
+}
+
+Sighting sighting_of(Session& session) {
+  const Capture& capture = session.capture();
+  if (session.report().status != PoseStatus::ok) return {};
+  return {true, capture.init_len(), capture.motion()};
+}
+
+void Cast::see(Session& session) {
+  trail_.add(sighting_of(session));
+  for (std::size_t place = 0; place < actors_.size(); ++place) actors_[place].see(followed(place));
+}
+
+void Cast::pose(float t, float dt_s, const Pane& pane) {
+  for (Actor& actor : actors_) actor.pose(t, dt_s, pane);
+}
+
+void Cast::draw(Scene& scene) const {
+  for (std::size_t place = actors_.size(); place-- > 0;) actors_[place].draw(scene);  // the leader on top
+}
+
+void Cast::next_character() {
+  for (Actor& actor : actors_) actor.wear((actor.costume() + 1) % wardrobe_.size());
+}
+
+}  // namespace nt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/wardrobe.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "app/author/mesh_character.h"
+#include "app/author/mesh_file.h"
+#include "app/author/picture_character.h"
+#include "core/character/character_format.h"
+#include "platform/camera.h"
+
+namespace nt {
+namespace {
+
+bool is_character_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char magic[sizeof kCharacterMagic] = {};
+  file.read(magic, sizeof magic);
+  return std::equal(std::begin(magic), std::end(magic), kCharacterMagic);
+}
+
+}  // namespace
+
+LoadedCharacter load_character(const std::string& path) {
+  if (is_character_file(path) || path.ends_with(".ntchar")) return LoadedCharacter(path, Limits{});
+  const AuthoredCharacter authored =
+      is_mesh_file(path) ? author_mesh(path, MeshOptions{}) : author_picture(path, PictureOptions{});
+  for (const std::string& note : authored.report.notes) std::fprintf(stderr, "%s: %s\n", path.c_str(), note.c_str());
+  return LoadedCharacter(authored.bytes, path, Limits{});
+}
+
+Wardrobe::Wardrobe(const std::vector<std::string>& paths, const RetargetSettings& settings) {
+  for (const std::string& path : paths) {
+    Costume costume{path, load_character(path), {}, nullptr};
+    Arena measuring;
+    (void)Retarget::create(measuring, costume.file.character(), settings);
+    costume.memory = AlignedBlock(measuring.used());
+    Arena arena(costume.memory.bytes());
+    const Result<Retarget*> made = Retarget::create(arena, costume.file.character(), settings);
+    if (!made.ok()) throw UserError(path + ": " + made.status().message);
+    costume.prepared = made.value();
+    costumes_.push_back(std::move(costume));
+  }
+}
+
+Retarget* Wardrobe::fitting(std::size_t index, Arena& arena) const {
+  const Result<Retarget*> made = Retarget::twin(arena, *costumes_[index].prepared);
+  if (!made.ok()) throw UserError(costumes_[index].path + ": " + made.status().message);
+  return made.value();
+}
+
+}  // namespace nt

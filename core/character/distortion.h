@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a posed character differs from its drawing: triangles that turned over, and the area of its fins.
+//
+// Input: the rest pose and triangles of a Character, and vertices posed by Retarget (scene coordinates, y down, or any
+// other turned, moved and evenly scaled copy of them). Output: counts, places and ratios; ratios have no unit.
+// A triangle turns over when its area's sign differs from the rest pose's; one without area at rest is passed over. Only
+// flat characters are judged: in a 3D one the far side is turned away from the viewer at rest already.
+// A fin's triangles: beyond the line through its two junctions, on the tip's side, with their centre no farther from the
+// junctions' middle than the tip is, and a tenth.
+// Memory: 1 byte per triangle, from the arena. Cost: 12 flops per triangle, 10 us for 4,000.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "core/base/arena.h"
+#include "core/character/character.h"
+
+namespace nt {
+
+struct Distortion {
+  int inverted = 0;  // triangles that turned over
+  Vec2 where;        // centre of the one that turned over the farthest, in the coordinates of the vertices
+  // Area of the fin's triangles over their area at rest times scale^2, signed; 1 where there is no such fin.
+  float l_fin_area = 1, r_fin_area = 1;
+};
+
+class DistortionMeter {
+ public:
+  // Null when the arena is measuring or full. The character must outlive the meter.
+  static DistortionMeter* create(Arena& arena, const Character& character);
+  // `scale`: length in `vertices` of one character unit. `y_down`: the vertices are in scene coordinates.
+  Distortion measure(std::span<const Vec2> vertices, float scale, bool y_down) const;
+
+ private:
+  void mark_fin(uint8_t mark, Vec2 top, Vec2 bottom, Vec2 tip);
+  Character character_;
+  std::span<uint8_t> part_;  // of each triangle: 1 left fin, 2 right fin, else 0
+  float rest_area_[3] = {};  // twice, by mark
+};
+
+}  // namespace nt

@@ -70,7 +70,14 @@ void Actor::draw(Scene& scene) const {
   const Character& worn = character();
   Picture texture = worn.texture;
   texture.id = kFirstCharacterPicture + static_cast<uint32_t>(costume_);
-  scene.mesh(texture, retarget().vertices(), worn.texcoords, worn.triangles, {1, 1, 1, 1 + (kFadedAlpha - 1) * gone});
+  const Colour tint{1, 1, 1, 1 + (kFadedAlpha - 1) * gone};
+  const Retarget& posed = retarget();
+  if (worn.solid()) {
+    scene.solid(texture, posed.vertices(), posed.solid().heights(), posed.solid().normals(), worn.texcoords,
+                worn.triangles, tint);
+  } else {
+    scene.mesh(texture, posed.vertices(), worn.texcoords, worn.triangles, tint);
+  }
 }
 
 }  // namespace nt

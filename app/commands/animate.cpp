@@ -19,6 +19,7 @@
 #include "app/export/film.h"
 #include "app/export/pose_csv.h"
 #include "app/export/report.h"
+#include "app/export/shape_report.h"
 #include "app/progress.h"
 #include "app/session.h"
 #include "app/ui/backdrop.h"
@@ -67,7 +68,12 @@ class Stage {
     for (int k = 0; k < n && session.frame_index() > 0; ++k) show(in_between_fraction(k, n), dt_s, film);
     if (side_by_side_) overlay_.update(session);
     show(1, dt_s, film);
+    if (!cast_.leader().seen()) return;
+    const Distortion distortion = cast_.leader().retarget().distortion();
+    shape_.add(session.frame_index(), distortion, to_source(actor_pane_.to_frame(distortion.where), session.scale()));
   }
+  // Of the first drawing, over all video frames with a pose.
+  Json shape_json() const { return shape_.json(cast_.leader().character()); }
 
  private:
   void show(float t, float dt_s, Film& film) {
@@ -84,6 +90,7 @@ class Stage {
   Overlay overlay_;
   bool side_by_side_;
   Backdrop backdrop_;
+  ShapeReport shape_;
   Scene scene_;
 };
 
@@ -123,7 +130,11 @@ void animate(const Options& options) {
   expect_frames(session);
   film.finish();
   if (csv) csv->close(), csv->look_back();
-  if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
+  if (!options.json.empty()) {
+    Json json = report_json(session);
+    json["character"] = stage.shape_json();
+    write_text(options.json, pretty(json));
+  }
   std::fprintf(stderr, "%s\n%s: %lld drawn frames at %g a second (%d in-betweens)\n",
                summary_line(session.statistics()).c_str(), options.out.c_str(), static_cast<long long>(film.frames()),
                fps * (n + 1), n);

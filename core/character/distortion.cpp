@@ -4,10 +4,13 @@
 namespace nt {
 namespace {
 
+constexpr float kSeenShare = 1.0f / 3;  // of a 3D triangle's area
 constexpr float kFinReach = 1.1f;  // of the tip's distance: the tip is a corner, the fin's rim may lie a little farther
 
 // Twice the signed area.
 float area2(Vec2 a, Vec2 b, Vec2 c) { return cross(b - a, c - a); }
+
+float magnitude(float v) { return v < 0.0f ? -v : v; }
 
 Vec2 middle(Vec2 a, Vec2 b, Vec2 c) { return (a + b + c) * (1.0f / 3.0f); }
 
@@ -21,48 +24,68 @@ DistortionMeter* DistortionMeter::create(Arena& arena, const Character& characte
   DistortionMeter& meter = self[0];
   meter.character_ = character;
   meter.part_ = part;
-  const ControlPoints& c = character.rest;
-  if (character.has_l_fin) meter.mark_fin(1, c.jun_tl, c.jun_bl, c.l_fin);
-  if (character.has_r_fin) meter.mark_fin(2, c.jun_tr, c.jun_br, c.r_fin);
+  for (std::size_t i = 0; i < triangles; ++i) {
+    if (meter.steep(i)) part[i] = kPassedOver;
+  }
+  for (int i = 0; i < kMaxFins; ++i) {
+    if (character.rest.fins[i].present) meter.mark_fin(i, character.rest.fins[i]);
+  }
   return &meter;
 }
 
-void DistortionMeter::mark_fin(uint8_t mark, Vec2 top, Vec2 bottom, Vec2 tip) {
-  const Vec2 root = lerp(top, bottom, 0.5f);
-  const float reach = kFinReach * kFinReach * length_sq(tip - root);
-  const float side = cross(bottom - top, tip - top) < 0.0f ? -1.0f : 1.0f;
+bool DistortionMeter::steep(std::size_t triangle) const {
+  const uint32_t* t = character_.triangles.data() + 3 * triangle;
+  const Vec2 a = character_.vertices[t[0]];
+  const Vec2 u = character_.vertices[t[1]] - a, v = character_.vertices[t[2]] - a;
+  const float seen = cross(u, v);
+  if (seen == 0.0f || !character_.solid()) return seen == 0.0f;
+  const float h = character_.heights[t[0]], uz = character_.heights[t[1]] - h, vz = character_.heights[t[2]] - h;
+  const float x = u.y * vz - uz * v.y, y = uz * v.x - u.x * vz;
+  return seen * seen < kSeenShare * kSeenShare * (x * x + y * y + seen * seen);
+}
+
+void DistortionMeter::mark_fin(int index, const FinPoints& fin) {
+  const Vec2 root = lerp(fin.top, fin.bottom, 0.5f), along = fin.bottom - fin.top;
+  const float reach = kFinReach * kFinReach * length_sq(fin.tip - root);
+  const float side = cross(along, fin.tip - fin.top) < 0.0f ? -1.0f : 1.0f;
   const std::span<const uint32_t> t = character_.triangles;
   const std::span<const Vec2> v = character_.vertices;
   for (std::size_t i = 0; i < part_.size(); ++i) {
+    if (part_[i] != 0) continue;
     const Vec2 a = v[t[3 * i]], b = v[t[3 * i + 1]], c = v[t[3 * i + 2]];
     const Vec2 at = middle(a, b, c);
-    if (side * cross(bottom - top, at - top) <= 0.0f || length_sq(at - root) > reach) continue;
-    part_[i] = mark;
-    rest_area_[mark] += area2(a, b, c);
+    if (side * cross(along, at - fin.top) <= 0.0f || length_sq(at - root) > reach) continue;
+    part_[i] = static_cast<uint8_t>(1 + index);
+    rest_area_[1 + index] += magnitude(area2(a, b, c));
   }
 }
 
 Distortion DistortionMeter::measure(std::span<const Vec2> vertices, float scale, bool y_down) const {
   Distortion d;
-  float area[3] = {}, farthest = 0.0f;
+  float area[1 + kMaxFins] = {}, farthest = 0.0f;
   const float sense = y_down ? -1.0f : 1.0f;
   const std::span<const uint32_t> t = character_.triangles;
   const std::span<const Vec2> v = character_.vertices;
+  const float unit = scale * scale;
   for (std::size_t i = 0; i < part_.size(); ++i) {
+    if (part_[i] == kPassedOver) continue;
     const uint32_t a = t[3 * i], b = t[3 * i + 1], c = t[3 * i + 2];
     const float before = area2(v[a], v[b], v[c]);
     const float after = sense * area2(vertices[a], vertices[b], vertices[c]);
-    area[part_[i]] += after;
-    if (after * before >= 0.0f) continue;
+    // In the rest pose's sense: a 3D character's lower side runs the other way round.
+    const float kept = before < 0.0f ? -after : after;
+    area[part_[i]] += kept;
+    const float ratio = kept / (magnitude(before) * unit);
+    d.least = ratio < d.least ? ratio : d.least;
+    if (kept >= 0.0f) continue;
     ++d.inverted;
-    const float far = after < 0.0f ? -after : after;
-    if (far <= farthest) continue;
-    farthest = far;
+    if (-kept <= farthest) continue;
+    farthest = -kept;
     d.where = middle(vertices[a], vertices[b], vertices[c]);
   }
-  const float unit = scale * scale;
-  if (rest_area_[1] != 0.0f) d.l_fin_area = area[1] / (rest_area_[1] * unit);
-  if (rest_area_[2] != 0.0f) d.r_fin_area = area[2] / (rest_area_[2] * unit);
+  for (int i = 0; i < kMaxFins; ++i) {
+    if (rest_area_[1 + i] != 0.0f) d.fin_area[i] = area[1 + i] / (rest_area_[1 + i] * unit);
+  }
   return d;
 }
 

@@ -3,8 +3,9 @@
 //
 // Input: the rest pose and triangles of a Character, and vertices posed by Retarget (scene coordinates, y down, or any
 // other turned, moved and evenly scaled copy of them). Output: counts, places and ratios; ratios have no unit.
-// A triangle turns over when its area's sign differs from the rest pose's; one without area at rest is passed over. Only
-// flat characters are judged: in a 3D one the far side is turned away from the viewer at rest already.
+// A triangle turns over when its area's sign, seen from above, differs from the rest pose's. One without area at rest is
+// passed over, and so is one of a 3D character that stands so steeply that less than a third of it is seen from above:
+// there the sign says nothing.
 // A fin's triangles: beyond the line through its two junctions, on the tip's side, with their centre no farther from the
 // junctions' middle than the tip is, and a tenth.
 // Memory: 1 byte per triangle, from the arena. Cost: 12 flops per triangle, 10 us for 4,000.
@@ -19,9 +20,10 @@ namespace nt {
 
 struct Distortion {
   int inverted = 0;  // triangles that turned over
+  float least = 1;   // smallest area of a triangle over its area at rest, signed
   Vec2 where;        // centre of the one that turned over the farthest, in the coordinates of the vertices
-  // Area of the fin's triangles over their area at rest times scale^2, signed; 1 where there is no such fin.
-  float l_fin_area = 1, r_fin_area = 1;
+  // Area of a fin's triangles over their area at rest times scale^2, signed; 1 where there is no such fin.
+  float fin_area[kMaxFins] = {1, 1, 1, 1};
 };
 
 class DistortionMeter {
@@ -32,10 +34,12 @@ class DistortionMeter {
   Distortion measure(std::span<const Vec2> vertices, float scale, bool y_down) const;
 
  private:
-  void mark_fin(uint8_t mark, Vec2 top, Vec2 bottom, Vec2 tip);
+  static constexpr uint8_t kPassedOver = 255;
+  bool steep(std::size_t triangle) const;
+  void mark_fin(int index, const FinPoints& fin);
   Character character_;
-  std::span<uint8_t> part_;  // of each triangle: 1 left fin, 2 right fin, else 0
-  float rest_area_[3] = {};  // twice, by mark
+  std::span<uint8_t> part_;             // of each triangle: 1 + its fin's index, 0 the body, kPassedOver
+  float rest_area_[1 + kMaxFins] = {};  // twice, by part
 };
 
 }  // namespace nt

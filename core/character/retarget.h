@@ -11,8 +11,8 @@
 // drawing's triangles bear (FinRange, found once), the fish's folded fin on the drawing's folded limit, amplitudes kept
 // where the drawing bears them and shrunk evenly where not. For a drawing is rooted, and at rest opened, otherwise than the
 // fish: the fish's own angle would run into the limit, where [F] section 6.3 calls distortion inevitable and a clamp would
-// hold the fin still. A second pair of fins follows the first: the fish has one. Each fin has kFinRays more control points between its root and its tip that turn with it, so that it
-// turns as a fin and does not bend like a banana after its tip. The filter also runs over the centre and the direction,
+// hold the fin still. The drawn fin turns about its lower junction, where it meets the body when it folds, not about the upper one:
+// turned about that, it would crush what lies between it and the body. A second pair of fins follows the first: the fish has one. Each fin has kFinSpots more control points, spread over it, that turn with it, so that it turns as a whole and keeps its area. The filter also runs over the centre and the direction,
 // which [F] leaves to its points in the world.
 // Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 37).
 #pragma once
@@ -20,6 +20,8 @@
 
 #include "core/base/arena.h"
 #include "core/character/character.h"
+#include "core/character/distortion.h"
+#include "core/character/solid_pose.h"
 #include "core/deform/mls.h"
 #include "core/motion/filter.h"
 #include "core/motion/motion.h"
@@ -75,6 +77,7 @@ class Retarget {
   void pose(const Motion& motion, float dt_s, const Placement& placement);
 
   std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
+  const SolidPose& solid() const { return solid_; }                      // of a 3D character; empty for a flat one
   const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
   const BoneLengths& lengths() const { return lengths_; }
   // All control points that move the vertices, at rest and as posed (and filtered) last; character units, local frame.
@@ -84,17 +87,18 @@ class Retarget {
   Motion rest_motion() const;
   // Where the drawing's fins go while the fish's go through kFishFins; never wider than that.
   FinRange fin_range(FinIndex fin) const { return fin_range_[fin]; }
+  // Of the vertices as posed last; computed when it is asked for.
+  Distortion distortion() const { return meter_->measure(vertices_, zoom_, true); }
 
  private:
-  // The control points that are used, one after the other: the body, then per fin the two junctions, the tip, the rays.
-  static constexpr std::size_t kFinRays = 5;
-  static constexpr std::size_t kMaxControls = 3 + kMaxUpAxis + kMaxLowAxis + kMaxFins * (3 + kFinRays);
+  // The control points that are used, one after the other: the body, then per fin the two junctions, the tip, the spots.
+  static constexpr std::size_t kFinSpots = 6;
+  static constexpr std::size_t kMaxControls = 3 + kMaxUpAxis + kMaxLowAxis + kMaxFins * (3 + kFinSpots);
   struct Fin {
     bool present = false;
-    std::size_t first = 0;  // of its control points: junction at the top, at the bottom, tip, rays
+    std::size_t first = 0;  // of its control points: junction at the top, at the bottom, tip, spots
     float side = 1;         // +1 on the x > 0 side of the drawing at rest, else -1
     float rest_open = 0;    // FinRange's measure, at rest
-    float length = 0;
   };
   struct Frame {  // where local coordinates go
     Vec2 centre;  // character units
@@ -104,7 +108,8 @@ class Retarget {
   void collect_rest();
   void add_fin(int index);
   void find_fin_range(int index);
-  bool fin_fits(const Fin& fin, float open);
+  void spread_spots(const Fin& fin);
+  bool fin_fits(int index, float open);
   void turn_fin(const Fin& fin, float open, float body_turn);
   void pose_body(const Motion& motion);
   void pose_fin(int index, float motion_open);
@@ -116,6 +121,9 @@ class Retarget {
   RetargetSettings settings_;
   Mls* junctions_ = nullptr;  // the implicit model: body control points move the junctions
   Mls* mesh_ = nullptr;       // the explicit model: all control points move the vertices
+  SolidPose solid_;
+  DistortionMeter* meter_ = nullptr;
+  float zoom_ = 1;  // of the last pose
   KalmanBank filter_;
   float last_dir_rad_ = 0;
   bool started_ = false;

@@ -19,7 +19,7 @@ struct Point {
 constexpr double kOnPoint = 1e-6;
 // Below this share of the squared extent the weighted spread of the control points is taken for none.
 constexpr double kNoSpread = 1e-18;
-// Ratio of the determinant to the squared trace of the spread matrix: 0 when collinear, 1/4 when round.
+// Roundness (ratio of the determinant to the squared trace of the spread matrix) up to which control points are collinear.
 constexpr double kCollinear = 1e-9;
 
 double extent_sq(std::span<const Vec2> points) {
@@ -31,6 +31,8 @@ double extent_sq(std::span<const Vec2> points) {
   const double w = static_cast<double>(hi.x) - lo.x, h = static_cast<double>(hi.y) - lo.y;
   return w * w + h * h;
 }
+
+double clamp_unit(double v) { return v < 0.0 ? 0.0 : (v > 1.0 ? 1.0 : v); }
 
 double distance_sq(Vec2 p, Vec2 v) {
   const double dx = static_cast<double>(p.x) - v.x, dy = static_cast<double>(p.y) - v.y;
@@ -82,10 +84,11 @@ Spread spread_of(std::span<const Vec2> controls, std::span<const double> u) {
 }  // namespace
 
 Mls* Mls::create(Arena& arena, std::span<const Vec2> vertices, std::span<const Vec2> controls, MlsKind kind,
-                 float alpha) {
+                 float alpha, float thin) {
   const std::size_t blocks = (vertices.size() + kBlock - 1) / kBlock;
   Mls layout;
   layout.kind_ = kind;
+  layout.thin_ = thin;
   layout.vertex_count_ = vertices.size();
   layout.control_count_ = controls.size();
   const std::span<Mls> self = arena.take<Mls>(1);
@@ -116,19 +119,20 @@ void Mls::precompute(std::size_t vertex, Vec2 v, std::span<const Vec2> controls,
   const double d_len = det::sqrt(d.x * d.x + d.y * d.y);
   const bool no_spread = s.total() <= kNoSpread * extent2 || d_len == 0.0;
   const double det_spread = s.xx * s.yy - s.xy * s.xy;
-  const bool affine = kind_ == MlsKind::affine && det_spread > kCollinear * s.total() * s.total();
+  const double roundness = kind_ == MlsKind::affine && !no_spread ? det_spread / (s.total() * s.total()) : 0.0;
+  const double from = kCollinear + 0.125 * static_cast<double>(thin_), to = 2 * kCollinear + static_cast<double>(thin_);
+  const double share = clamp_unit((roundness - from) / (to - from));  // of affine, against similarity
   // Rigid: scaled so that |F| = 1 at rest.
   const double scale = no_spread ? 0.0 : 1.0 / (s.total() * (kind_ == MlsKind::rigid ? d_len : 1.0));
   for (std::size_t i = 0; i < controls.size(); ++i) {
     const double u = weights[i];
     const Point p{static_cast<double>(controls[i].x) - s.mean.x, static_cast<double>(controls[i].y) - s.mean.y};
-    if (affine) {
+    double re = u * scale * (p.x * d.x + p.y * d.y);
+    double im = u * scale * (p.x * d.y - p.y * d.x);
+    if (share > 0.0) {
       const double a = (d.x * (s.yy * p.x - s.xy * p.y) + d.y * (s.xx * p.y - s.xy * p.x)) * u / det_spread;
-      store(vertex, i, u + a, 0.0, 0.0);
-      continue;
+      re += share * (a - re), im -= share * im;
     }
-    const double re = u * scale * (p.x * d.x + p.y * d.y);
-    const double im = u * scale * (p.x * d.y - p.y * d.x);
     if (kind_ == MlsKind::rigid) {
       store(vertex, i, u, re, im);
     } else {
@@ -136,7 +140,7 @@ void Mls::precompute(std::size_t vertex, Vec2 v, std::span<const Vec2> controls,
     }
   }
   radius_[vertex] = no_spread ? 0.0f : static_cast<float>(d_len);
-  if (no_spread && !affine) shift_[vertex] = {static_cast<float>(d.x), static_cast<float>(d.y)};
+  if (no_spread) shift_[vertex] = {static_cast<float>(d.x), static_cast<float>(d.y)};
 }
 
 void Mls::sum_block(std::size_t block, std::span<const Vec2> controls, Sums& sums) const {

@@ -32,9 +32,11 @@ class Mls {
   // Vertices a SIMD group works on; coefficients are stored in blocks of this many, so a block is one run of memory.
   static constexpr std::size_t kBlock = 8;
 
-  // Precomputes for this rest pose. Null when the arena is measuring or full, or there are no control points.
+  // Precomputes for this rest pose. Null when the arena is measuring or full, or there are no control points. `thin`, for
+  // affine only: where the roundness of the control points' weighted spread (determinant over squared trace: 0 collinear,
+  // 1/4 round) is less, affine goes over into the similarity, and is it from an eighth of that on.
   static Mls* create(Arena& arena, std::span<const Vec2> vertices, std::span<const Vec2> controls, MlsKind kind,
-                     float alpha);
+                     float alpha, float thin = 0.0f);
 
   // controls.size() and out.size() are those of create.
   void deform(std::span<const Vec2> controls, std::span<Vec2> out) const;
@@ -58,6 +60,7 @@ class Mls {
   void finish_block(std::size_t block, const Sums& sums, std::span<Vec2> out) const;
 
   MlsKind kind_ = MlsKind::rigid;
+  float thin_ = 0.0f;
   std::size_t vertex_count_ = 0, control_count_ = 0;
   // [block][control][part][lane]; parts: u, Re c, Im c (rigid) or Re k, Im k.
   std::span<float> coefficients_;

@@ -2,7 +2,8 @@
 // What to draw, without any GL: a fixed list of items in painting order that every renderer shows the same way.
 //
 // Frame of reference: scene pixels, x right, y down, origin at the top left corner of the canvas; the renderer scales the
-// canvas to the display and keeps its aspect. Colours are RGBA in [0, 1], not premultiplied.
+// canvas to the display and keeps its aspect. Items cover those before them; only within a mesh that has heights (scene
+// pixels towards the viewer) what is higher hides what is lower, and it is lit from above, a little from the left. Colours are RGBA in [0, 1], not premultiplied.
 // The scene owns nothing: spans and pixels must live until the renderer has drawn it.
 // Cost: filling is a few stores per item; no allocation, kMaxItems items.
 #pragma once
@@ -11,6 +12,7 @@
 #include <span>
 
 #include "core/base/vec2.h"
+#include "core/base/vec3.h"
 
 namespace nt {
 
@@ -39,6 +41,8 @@ struct SceneItem {
   std::span<const Vec2> positions;    // mesh: vertices; lines: a strip; points: centres
   std::span<const Vec2> texcoords;    // mesh: in [0, 1], v down, one per vertex
   std::span<const uint32_t> indices;  // mesh: three per triangle
+  std::span<const float> heights;     // mesh: one per vertex, or none for a flat one
+  std::span<const Vec3> normals;      // mesh with heights: one per vertex, z towards the viewer, of any length
   Colour colour;                      // lines, points; multiplies images and meshes
   float width_px = 1;                 // lines: thickness; points: diameter
   bool closed = false;                // lines: join the last to the first
@@ -65,6 +69,14 @@ class Scene {
     SceneItem item;
     item.kind = ItemKind::mesh, item.picture = texture, item.positions = positions, item.texcoords = texcoords;
     item.indices = indices, item.colour = tint;
+    add(item);
+  }
+  void solid(const Picture& texture, std::span<const Vec2> positions, std::span<const float> heights,
+             std::span<const Vec3> normals, std::span<const Vec2> texcoords, std::span<const uint32_t> indices,
+             Colour tint = {}) {
+    SceneItem item;
+    item.kind = ItemKind::mesh, item.picture = texture, item.positions = positions, item.heights = heights;
+    item.normals = normals, item.texcoords = texcoords, item.indices = indices, item.colour = tint;
     add(item);
   }
   void lines(std::span<const Vec2> strip, Colour colour, float width_px, bool closed = false) {

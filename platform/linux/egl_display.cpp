@@ -75,10 +75,14 @@ class Framebuffer {
   Framebuffer(int width, int height) {
     glGenFramebuffers(1, &framebuffer_);
     glGenRenderbuffers(1, &colour_);
+    glGenRenderbuffers(1, &depth_);
     glBindRenderbuffer(GL_RENDERBUFFER, colour_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
     bind();
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
       throw UserError("no off-screen display of " + std::to_string(width) + "x" + std::to_string(height) +
                       " pixels: the driver refuses that size; make it smaller");
@@ -87,13 +91,14 @@ class Framebuffer {
   ~Framebuffer() {
     glDeleteFramebuffers(1, &framebuffer_);
     glDeleteRenderbuffers(1, &colour_);
+    glDeleteRenderbuffers(1, &depth_);
   }
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
 
  private:
-  unsigned framebuffer_ = 0, colour_ = 0;
+  unsigned framebuffer_ = 0, colour_ = 0, depth_ = 0;
 };
 
 class HeadlessDisplay : public Display {

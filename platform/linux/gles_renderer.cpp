@@ -16,15 +16,19 @@ layout(location = 0) in vec2 at;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in float edge_px;
 layout(location = 3) in vec4 colour;
+layout(location = 4) in float depth;
+layout(location = 5) in vec3 normal;
 uniform vec4 canvas;  // scale and offset from scene pixels to clip space
 out highp vec2 v_uv;
 out highp float v_edge;
 out mediump vec4 v_colour;
+out mediump vec3 v_normal;
 void main() {
+  v_normal = normal;
   v_uv = uv;
   v_edge = edge_px;
   v_colour = vec4(colour.rgb * colour.a, colour.a);
-  gl_Position = vec4(at * canvas.xy + canvas.zw, 0.0, 1.0);
+  gl_Position = vec4(at * canvas.xy + canvas.zw, depth, 1.0);
 }
 )";
 
@@ -34,6 +38,7 @@ precision highp float;
 in vec2 v_uv;
 in float v_edge;
 in mediump vec4 v_colour;
+in mediump vec3 v_normal;
 uniform int shape;
 uniform float scale;  // display pixels a scene pixel
 uniform sampler2D picture;
@@ -41,6 +46,15 @@ out vec4 fragment;
 void main() {
   if (shape == 0) {
     fragment = texture(picture, v_uv) * v_colour;
+    return;
+  }
+  if (shape == 3) {
+    vec4 texel = texture(picture, v_uv);
+    if (texel.a < 0.5) discard;
+    vec3 n = normalize(v_normal);
+    n = n.z < 0.0 ? -n : n;  // both sides are shown
+    float light = 0.52 + 0.58 * max(dot(n, vec3(-0.33, -0.42, 0.845)), 0.0);
+    fragment = vec4(min(texel.rgb * light, texel.aaa), texel.a) * v_colour;
     return;
   }
   float distance_px = (shape == 1) ? abs(v_uv.x) : length(v_uv);
@@ -131,7 +145,9 @@ GlesRenderer::GlesRenderer() : program_(link_program()) {
   glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, uv)));
   glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, edge_px)));
   glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, offset(offsetof(Vertex, rgba)));
-  for (unsigned i = 0; i < 4; ++i) glEnableVertexAttribArray(i);
+  glVertexAttribPointer(4, 1, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Vertex, depth)));
+  glVertexAttribPointer(5, 3, GL_BYTE, GL_TRUE, stride, offset(offsetof(Vertex, normal)));
+  for (unsigned i = 0; i < 6; ++i) glEnableVertexAttribArray(i);
 }
 
 GlesRenderer::~GlesRenderer() {
@@ -179,6 +195,12 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   glDisable(GL_CULL_FACE);
   for (const Batch& batch : batches_) {
     if (batch.picture != nullptr) bind_texture(*batch.picture);
+    if (batch.shape == Shape::solid) {
+      glEnable(GL_DEPTH_TEST);
+      glClear(GL_DEPTH_BUFFER_BIT);
+    } else {
+      glDisable(GL_DEPTH_TEST);
+    }
     glUniform1i(shape_uniform_, static_cast<int>(batch.shape));
     glDrawElements(GL_TRIANGLES, static_cast<int>(batch.count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
@@ -235,7 +257,8 @@ void GlesRenderer::add_image(const SceneItem& item) {
 void GlesRenderer::add_mesh(const SceneItem& item) {
   const std::size_t count = item.positions.size();
   if (!drawable(item.picture) || count == 0 || item.texcoords.size() != count) return;
-  open_batch(Shape::textured, &item.picture);
+  const bool solid = item.heights.size() == count && item.normals.size() == count;
+  open_batch(solid ? Shape::solid : Shape::textured, &item.picture);
   const auto first = static_cast<uint32_t>(vertices_.size());
   Vertex vertex{};
   pack(item.colour, vertex.rgba);
@@ -244,10 +267,27 @@ void GlesRenderer::add_mesh(const SceneItem& item) {
     vertex.uv = item.texcoords[i];
     vertices_.push_back(vertex);
   }
+  if (solid) raise(item, first);
   for (std::size_t i = 0; i + 2 < item.indices.size(); i += 3) {
     const uint32_t a = item.indices[i], b = item.indices[i + 1], c = item.indices[i + 2];
     if (std::max({a, b, c}) >= count) continue;  // the GPU must not read past the vertices
     for (const uint32_t corner : {a, b, c}) indices_.push_back(first + corner);
+  }
+}
+
+// The mesh's own heights fill the whole depth range: it is the only one in it.
+void GlesRenderer::raise(const SceneItem& item, std::size_t first_vertex) {
+  const auto [low, high] = std::minmax_element(item.heights.begin(), item.heights.end());
+  const float middle = 0.5f * (*low + *high), half = std::max(0.51f * (*high - *low), 1e-6f);
+  for (std::size_t i = 0; i < item.heights.size(); ++i) {
+    Vertex& vertex = vertices_[first_vertex + i];
+    vertex.depth = (middle - item.heights[i]) / half;
+    const Vec3 n = item.normals[i];
+    const float length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    const float unit = length > 0 ? 127.0f / length : 0.0f;
+    vertex.normal[0] = static_cast<int8_t>(n.x * unit);
+    vertex.normal[1] = static_cast<int8_t>(n.y * unit);
+    vertex.normal[2] = static_cast<int8_t>(n.z * unit);
   }
 }
 

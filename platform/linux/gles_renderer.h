@@ -4,7 +4,9 @@
 // Scene (pixels, x right, y down, origin at the canvas' corner) + framebuffer size -> canvas scaled to fit with its aspect
 // kept, black bars beside it, nothing drawn outside it. Lines and points are scaled with the canvas and have soft edges
 // one display pixel wide. Blending is premultiplied, so transparent texels do not darken the edge of a drawing.
-// A texture is kept for each Picture.id until the renderer goes; pixels are read again when revision, size or format change.
+// A mesh with heights is drawn with depth among its own triangles, both sides of each, lit softly from the upper left by its
+// normals; texels less than half opaque are left out, because depth knows no half.
+// The framebuffer needs a depth buffer for that. A texture is kept for each Picture.id until the renderer goes; pixels are read again when revision, size or format change.
 // Cost: one vertex and one index upload a frame, one draw call for each run of items with the same texture; the
 // buffers grow to the largest scene seen and stay, so a steady scene allocates nothing.
 #pragma once
@@ -39,12 +41,14 @@ class GlesRenderer {
   static std::string description();  // GL_RENDERER and GL_VERSION of the current context
 
  private:
-  enum class Shape : uint8_t { textured, band, disc };
+  enum class Shape : uint8_t { textured, band, disc, solid };
   // Textured: u, v in [0, 1]. Band and disc: distance from the middle in scene pixels, and where the edge is.
   struct Vertex {
     Vec2 at;
     Vec2 uv;
     float edge_px;
+    float depth;  // -1 nearest to the viewer, 1 farthest
+    int8_t normal[4];
     uint8_t rgba[4];
   };
   struct Batch {
@@ -63,6 +67,7 @@ class GlesRenderer {
   void build(const Scene& scene, float scale);
   void add_image(const SceneItem& item);
   void add_mesh(const SceneItem& item);
+  void raise(const SceneItem& item, std::size_t first_vertex);
   void add_lines(const SceneItem& item, float scale);
   void add_points(const SceneItem& item, float scale);
   void add_quad(uint32_t first_vertex);

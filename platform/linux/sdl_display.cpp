@@ -38,6 +38,7 @@ class SdlWindow {
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
     Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 16);  // for characters that are solid
     SDL_Rect screen{};
     const bool known = SDL_GetDisplayUsableBounds(0, &screen) == 0 && screen.w > 0 && screen.h > 0;
     const bool small = known && mode == WindowMode::large && (screen.w <= width || screen.h <= height);

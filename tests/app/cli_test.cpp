@@ -64,6 +64,20 @@ TEST(Cli, ValuesThatCannotBe) {
   expect_one_line(neontetra("capture -c " + kCarp + " --truth /dev/null --background vibe"), 2, "sim");
 }
 
+TEST(Cli, CharactersBackdropsAndSchoolsThatCannotBe) {
+  const std::string animate = "animate -c sim:frames=2 --out x.mp4 --character " + kCarp;
+  expect_one_line(neontetra(animate + " --backdrop /no/sea.png"), 2, "there is no picture '/no/sea.png'");
+  expect_one_line(neontetra(animate + " --school 0"), 2, "--school");
+  expect_one_line(neontetra(animate + " --school many"), 2, "--school");
+  expect_one_line(neontetra(animate + " --mls stiff"), 2, "--mls");
+  expect_one_line(neontetra(animate + " --character " + kCarp), 2, "--school 2");
+  expect_one_line(neontetra("animate -c sim:frames=2 --out x.mp4 --character /no/carp.png"), 1, "/no/carp.png");
+  expect_one_line(neontetra("live -c sim --character " + kCarp + " --info-text '%speed'"), 2, "%speed");
+  expect_one_line(neontetra("live -c sim --layout behind --backdrop camera --character " + kCarp), 2,
+                  "--layout behind");
+  expect_one_line(neontetra("live -c sim --layout alon --character " + kCarp), 2, "--layout");
+}
+
 TEST(Cli, PlacesAndSizesOutsideThePicture) {
   expect_one_line(neontetra("capture -c sim:size=320x240,frames=2 --background vibe --select 320,10"), 2,
                   "X is at most 319 and Y 239");

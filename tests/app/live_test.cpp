@@ -99,6 +99,28 @@ TEST_F(Live, SpaceHoldsTheClipAndLetsItGoOn) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
+// On a colour for keying, alone, without lines: the corner of the recorded film has that colour and no other; c changes
+// the character without a stop.
+TEST_F(Live, AloneOnAColourWithTwoCharacters) {
+  const Outcome run = live("--background backlit --layout alone --backdrop '#00ff00' --info-text '' --character " +
+                               kCarp + " -c " + dir_ / "two.avi",
+                           "xdotool key r; sleep 1; xdotool key c; sleep 1; xdotool key i c; sleep 0.5; xdotool key r; "
+                           "sleep 0.3; xdotool key q");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  cv::VideoCapture video(dir_ / "rec-1.mp4");
+  ASSERT_TRUE(video.isOpened());
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 640);
+  cv::Mat frame, last;
+  while (video.read(frame)) frame.copyTo(last);
+  ASSERT_FALSE(last.empty());
+  const cv::Vec3b corner = last.at<cv::Vec3b>(300, 20);
+  EXPECT_LT(corner[0], 12);
+  EXPECT_GT(corner[1], 240);
+  EXPECT_LT(corner[2], 12);
+  const cv::Vec3b fish = last.at<cv::Vec3b>(80, 320);
+  EXPECT_LT(fish[1], 235);  // the character is there
+}
+
 TEST_F(Live, ClickSelectsAndRRecords) {
   const std::string record = "xdotool key r; sleep 2; xdotool key r; sleep 0.5;";
   const std::string click = "xdotool mousemove --window $window 320 250 click 1; sleep 1;";

@@ -221,7 +221,7 @@ void add_pose(Shape& shape, const nt::Character& character, const nt::Distortion
                  posed[t[i + 2]] - posed[t[i]]);
   }
   const nt::Distortion d = meter.measure(posed, 1.0f, false);
-  for (const float ratio : {d.l_fin_area, d.r_fin_area})
+  for (const float ratio : d.fin_area)
     shape.worst_fin = std::max(shape.worst_fin, std::abs(static_cast<double>(ratio) - 1));
 }
 

@@ -230,6 +230,92 @@ TEST_F(GlesRendererTest, KeepsTheCanvasAspectWithBlackBars) {
   EXPECT_EQ(fit.y, 0);
 }
 
+// Two squares over one another, left half red and right half green, the second one drawn later.
+struct TwoSquares {
+  std::vector<uint8_t> texture = {200, 0, 0, 255, 0, 200, 0, 255};
+  std::vector<Vec2> at = {{10, 10}, {50, 10}, {10, 50}, {50, 50}, {30, 30}, {70, 30}, {30, 70}, {70, 70}};
+  std::vector<float> heights = {9, 9, 9, 9, 2, 2, 2, 2};
+  std::vector<Vec3> normals = std::vector<Vec3>(8, Vec3{0, 0, 5});
+  std::vector<Vec2> uv =
+      std::vector<Vec2>{{0.1f, 0}, {0.1f, 0}, {0.1f, 0}, {0.1f, 0}, {0.9f, 0}, {0.9f, 0}, {0.9f, 0}, {0.9f, 0}};
+  std::vector<uint32_t> triangles = {0, 1, 2, 2, 1, 3, 4, 5, 6, 6, 5, 7};
+  void add(Scene& scene, Colour tint = {}) const {
+    scene.solid(picture_of(texture, 2, 1, PixelFormat::rgba8, 11), at, heights, normals, uv, triangles, tint);
+  }
+};
+
+TEST_F(GlesRendererTest, WhatIsHigherHidesWhatIsLower) {
+  open(80, 80);
+  if (!display_) return;
+  TwoSquares squares;
+  Scene scene = blank();
+  squares.add(scene);
+  draw(scene);
+  EXPECT_GT(at(40, 40).r, 100);
+  EXPECT_EQ(at(40, 40).g, 0);
+  EXPECT_GT(at(60, 60).g, 100);
+  std::swap(squares.heights[0], squares.heights[4]), std::swap(squares.heights[1], squares.heights[5]);
+  std::swap(squares.heights[2], squares.heights[6]), std::swap(squares.heights[3], squares.heights[7]);
+  scene = blank();
+  squares.add(scene);
+  draw(scene);
+  EXPECT_GT(at(40, 40).g, 100);
+  EXPECT_EQ(at(40, 40).r, 0);
+}
+
+TEST_F(GlesRendererTest, ASolidCoversWhatWasDrawnBeforeItHoweverHigh) {
+  open(80, 80);
+  if (!display_) return;
+  TwoSquares high, low;
+  for (float& h : high.heights) h += 1000;
+  low.texture = {0, 0, 200, 255, 0, 0, 200, 255};
+  Scene scene = blank();
+  high.add(scene);
+  scene.solid(picture_of(low.texture, 2, 1, PixelFormat::rgba8, 12), low.at, low.heights, low.normals, low.uv,
+              low.triangles);
+  const Vec2 dot{20, 20};
+  scene.points({&dot, 1}, {1, 1, 1, 1}, 6);  // flat items are not hidden by a solid either
+  draw(scene);
+  EXPECT_GT(at(40, 40).b, 100);
+  EXPECT_EQ(at(40, 40).r, 0);
+  EXPECT_TRUE(near_colour(at(20, 20), {255, 255, 255}));
+}
+
+TEST_F(GlesRendererTest, SolidsAreLitFromTheUpperLeftOnBothSides) {
+  open(80, 80);
+  if (!display_) return;
+  const auto lit = [&](Vec3 normal) {
+    TwoSquares squares;
+    squares.normals.assign(8, normal);
+    Scene scene = blank();
+    squares.add(scene);
+    draw(scene);
+    return at(20, 20).r;
+  };
+  const int facing = lit({0, 0, 1}), left = lit({-0.7f, -0.7f, 0.7f}), right = lit({0.7f, 0.7f, 0.7f});
+  EXPECT_GT(left, facing - 2);
+  EXPECT_LT(right, facing - 30);
+  EXPECT_NEAR(lit({0, 0, -1}), facing, 1);
+  EXPECT_NEAR(facing, 200, 10);  // a face that looks at the viewer keeps its own colour
+}
+
+TEST_F(GlesRendererTest, ClearTexelsOfASolidHideNothingAndItFades) {
+  open(80, 80);
+  if (!display_) return;
+  TwoSquares squares;
+  squares.texture = {200, 0, 0, 0, 0, 200, 0, 255};  // the upper square is clear
+  Scene scene = blank();
+  squares.add(scene);
+  draw(scene);
+  const int whole = at(40, 40).g;
+  EXPECT_GT(whole, 100);
+  EXPECT_TRUE(near_colour(at(20, 20), {0, 0, 0}));
+  scene = blank();
+  squares.add(scene, {1, 1, 1, 0.5f});
+  draw(scene);
+  EXPECT_NEAR(at(40, 40).g, whole / 2, 3);
+}
+
 TEST_F(GlesRendererTest, EmptyAndBrokenItemsDrawNothing) {
   open(32, 32);
   if (!display_) return;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/det_math.h"
+#include "tests/support/block.h"
 #include "tests/support/drawn_character.h"
 
 namespace nt {
@@ -139,15 +140,15 @@ TEST(Retarget, NoFinAngleTurnsATriangleOver) {
   }
 }
 
-// How far the right fin stands open in the last pose of an upright fish; scene: y down.
-float right_open(const Retarget& retarget) {
-  const Vec2 fin = retarget.control_points().fins[kRightFin].tip - retarget.control_points().fins[kRightFin].top;
-  return det::atan2(fin.x, fin.y);
+// How far a fin stands open in the last pose of an upright fish (scene: y down): as drawn, and by how far it has turned
+// about its lower junction since.
+float open_of(const Retarget& retarget, FinIndex index, float side) {
+  const FinPoints& fin = retarget.control_points().fins[index];
+  const Vec2 now = fin.tip - fin.bottom;
+  return det::atan2(36, 30) + det::atan2(-now.y, side * now.x) - det::atan2(-10, 36);
 }
-float left_open(const Retarget& retarget) {
-  const Vec2 fin = retarget.control_points().fins[kLeftFin].tip - retarget.control_points().fins[kLeftFin].top;
-  return det::atan2(-fin.x, fin.y);
-}
+float right_open(const Retarget& retarget) { return open_of(retarget, kRightFin, 1); }
+float left_open(const Retarget& retarget) { return open_of(retarget, kLeftFin, -1); }
 
 TEST(Retarget, AFoldedFishFinFoldsTheDrawnOneToItsLimitOnItsOwnSide) {
   Stage stage;
@@ -197,8 +198,8 @@ TEST(Retarget, AFinAngleMovesItsTipAndNotTheOtherFins) {
   stage->pose(m, 0, {});
   const ControlPoints& after = stage->control_points();
   const float slope = stage->fin_range(kRightFin).width() / kFishFins.width();
-  EXPECT_NEAR(length(after.fins[kRightFin].tip - before.fins[kRightFin].tip),
-              stage->lengths().fin_len[kRightFin] * 0.1f * slope, 0.02f);
+  EXPECT_NEAR(length(after.fins[kRightFin].tip - before.fins[kRightFin].tip), length(Vec2{36, 10}) * 0.1f * slope,
+              0.02f);
   EXPECT_LT(after.fins[kRightFin].tip.y, before.fins[kRightFin].tip.y);  // opens towards the head
   EXPECT_NEAR(length(after.fins[kLeftFin].tip - before.fins[kLeftFin].tip), 0.0f, 1e-3f);
 }
@@ -255,6 +256,55 @@ TEST(Retarget, DirectionAcrossPiDoesNotSpinTheFilteredFish) {
     stage->pose(m, 1.0f / 30, {});
     EXPECT_LT(stage->control_points().head.x, stage->control_points().centre.x);
   }
+}
+
+TEST(Retarget, FinsKeepTheirAreaAndNoTriangleTurnsOverWhileBothMove) {
+  Stage stage;
+  const Motion rest = stage->rest_motion();
+  for (int n = 0; n < 200; ++n) {
+    const float t = 0.1f * static_cast<float>(n);
+    Motion m = bent(rest, [&](float s) { return (0.1f + 0.4f * det::max(-s, 0.0f)) * det::sin(5 * s + 3 * t); });
+    m.r_fin_angle = -det::kHalfPi + 0.9f + 0.6f * det::sin(t);
+    m.l_fin_angle = -det::kHalfPi - 0.9f + 0.6f * det::sin(0.7f * t);
+    stage->pose(m, 0, {{7, 9}, 2.5f});
+    const Distortion d = stage->distortion();
+    EXPECT_EQ(d.inverted, 0) << n;
+    EXPECT_NEAR(d.fin_area[kLeftFin], 1, 0.1f) << n;
+    EXPECT_NEAR(d.fin_area[kRightFin], 1, 0.1f) << n;
+  }
+}
+
+TEST(Retarget, EveryKindOfDeformationKeepsTheDrawingWhole) {
+  for (const MlsKind kind : {MlsKind::rigid, MlsKind::similarity, MlsKind::affine}) {
+    RetargetSettings settings = Stage::unsmoothed();
+    settings.mls = kind;
+    Stage stage(settings);
+    for (float phase = 0; phase < det::kTwoPi; phase += 0.3f) {
+      stage->pose(bent(stage->rest_motion(), [&](float s) { return 0.3f * det::sin(4 * s + phase); }), 0, {});
+      EXPECT_EQ(stage->distortion().inverted, 0) << static_cast<int>(kind) << ' ' << phase;
+    }
+  }
+}
+
+TEST(Retarget, ATwinPosesForItselfLikeTheOther) {
+  Stage stage(RetargetSettings{});
+  Arena measure;
+  EXPECT_EQ(Retarget::twin(measure, *stage).value(), nullptr);
+  const test::Block block(measure.used());
+  Arena arena(block.span());
+  Retarget& twin = *Retarget::twin(arena, *stage).value();
+  twin.start(stage->lengths().body_len);
+  const Motion rest = stage->rest_motion(), other = bent(rest, [](float s) { return 0.4f * s; });
+  stage->pose(other, 0, {});
+  const std::vector<Vec2> want(stage->vertices().begin(), stage->vertices().end());
+  twin.pose(other, 0, {});
+  stage->pose(rest, 1.0f / 30, {});  // does not disturb the twin, nor its filter
+  twin.pose(other, 1.0f / 30, {});
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    ASSERT_NEAR(twin.vertices()[i].x, want[i].x, 1e-3f);
+    ASSERT_NEAR(twin.vertices()[i].y, want[i].y, 1e-3f);
+  }
+  EXPECT_GT(length(twin.vertices()[0] - stage->vertices()[0]), 0.1f);
 }
 
 TEST(Retarget, TooLittleMemoryIsAnError) {

@@ -16,13 +16,14 @@ constexpr MlsKind kKinds[] = {MlsKind::rigid, MlsKind::similarity, MlsKind::affi
 
 class Deformer {
  public:
-  Deformer(const std::vector<Vec2>& v, const std::vector<Vec2>& p, MlsKind kind, float alpha = 1.0f) : out_(v.size()) {
+  Deformer(const std::vector<Vec2>& v, const std::vector<Vec2>& p, MlsKind kind, float alpha = 1.0f, float thin = 0.0f)
+      : out_(v.size()) {
     Arena measure;
-    EXPECT_EQ(Mls::create(measure, v, p, kind, alpha), nullptr);
+    EXPECT_EQ(Mls::create(measure, v, p, kind, alpha, thin), nullptr);
     memory_.resize(measure.used() + kAlignment);
     auto* at = reinterpret_cast<std::byte*>(align_up(reinterpret_cast<std::size_t>(memory_.data())));
     Arena arena({at, measure.used()});
-    mls_ = Mls::create(arena, v, p, kind, alpha);
+    mls_ = Mls::create(arena, v, p, kind, alpha, thin);
     EXPECT_FALSE(arena.full());
     EXPECT_EQ(arena.used(), measure.used());
   }
@@ -121,6 +122,20 @@ TEST(Mls, CollinearControlPointsBendTheirSurroundings) {
     Deformer d(v, p, kind);
     expect_near(d(mapped(p, turned)), mapped(v, turned), 3e-4f);
   }
+}
+
+// On thin spreads affine goes over into the similarity: a pull along the line no longer tears what lies beside it.
+TEST(Mls, AffineOnThinSpreadsIsTheSimilarity) {
+  std::vector<Vec2> p, q;
+  for (int i = 0; i < 6; ++i) p.push_back({i % 2 == 0 ? 0.05f : -0.05f, 10.0f * static_cast<float>(i)});
+  for (const Vec2 x : p) q.push_back({10 * x.x + 1, 1.1f * x.y});
+  const auto v = random_points(40, 10, 60);
+  Deformer thin(v, p, MlsKind::affine, 1.5f, 0.15f), similar(v, p, MlsKind::similarity, 1.5f);
+  Deformer pure(v, p, MlsKind::affine, 1.5f);
+  expect_near(thin(q), similar(q), 1e-5f);
+  float most = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) most = det::max(most, length(pure(q)[i] - similar(q)[i]));
+  EXPECT_GT(most, 20.0f);
 }
 
 TEST(Mls, OneControlPointCarriesEverythingAlong) {

@@ -17,12 +17,6 @@ constexpr double kDelay_s = 0.12;
 constexpr float kAside_bl = 0.42f, kBack_bl = 0.5f;  // from one row to the next, body lengths
 constexpr float kFollowerSize = 0.8f;
 
-RetargetSettings retarget_settings(const CastOptions& options) {
-  RetargetSettings settings;
-  settings.mls = options.mls;
-  return settings;
-}
-
 std::size_t delay_frames(double fps) { return static_cast<std::size_t>(std::max(1L, std::lround(kDelay_s * fps))); }
 
 }  // namespace
@@ -43,23 +37,27 @@ void add_cast_options(CLI::App& command, CastOptions& options) {
   command
       .add_option_function<std::string>(
           "--mls", [&options, kinds](const std::string& name) { options.mls = kinds.at(name); },
-          "how the drawing gives way between its control points: rigid keeps sizes (default), similarity lets parts "
-          "grow and shrink, affine lets them shear too")
+          "how the drawing gives way between its control points: rigid keeps sizes, similarity lets parts "
+          "grow and shrink, affine lets them shear too (default: as the character's file says)")
       ->type_name("rigid|similarity|affine")
       ->check(CLI::IsMember({"rigid", "similarity", "affine"}));
 }
 
-Cast::Cast(const CastOptions& options, double fps)
-    : wardrobe_(options.characters, retarget_settings(options)),
-      delay_frames_(delay_frames(fps)),
-      trail_(delay_frames_ * static_cast<std::size_t>(options.school - 1) + 1) {
-  for (std::size_t place = 0; place < static_cast<std::size_t>(options.school); ++place)
-    actors_.emplace_back(wardrobe_, place % wardrobe_.size(), place == 0 ? 1.0f : kFollowerSize);
+Cast::Cast(const CastOptions& options, Session& session)
+    : wardrobe_(options.characters, options.mls),
+      school_(static_cast<std::size_t>(options.school)),
+      delay_frames_(delay_frames(session.info().fps)) {
+  const auto fish = static_cast<std::size_t>(session.capture().fish_count());
+  trails_.assign(fish, Trail(delay_frames_ * (school_ - 1) + 1));
+  for (std::size_t i = 0; i < fish * school_; ++i) {
+    const std::size_t number = i / school_, place = i % school_;
+    actors_.emplace_back(wardrobe_, (number + place) % wardrobe_.size(), place == 0 ? 1.0f : kFollowerSize);
+  }
 }
 
 // Rows of two behind the leader, the left one first.
-Sighting Cast::followed(std::size_t place) const {
-  Sighting sighting = trail_.before(place * delay_frames_);
+Sighting Cast::followed(const Trail& trail, std::size_t place) const {
+  Sighting sighting = trail.before(place * delay_frames_);
   if (place == 0 || !sighting.seen) return sighting;
   const auto row = static_cast<float>((place + 1) / 2);
   const float side = place % 2 == 1 ? -1.0f : 1.0f;
@@ -69,15 +67,15 @@ Sighting Cast::followed(std::size_t place) const {
   return sighting;
 }
 
-Sighting sighting_of(Session& session) {
+Sighting sighting_of(Session& session, int fish) {
   const Capture& capture = session.capture();
-  if (session.report().status != PoseStatus::ok) return {};
-  return {true, capture.init_len(), capture.motion()};
+  if (!capture.pose(fish).ok()) return {};
+  return {true, capture.init_len(fish), capture.motion(fish)};
 }
 
 void Cast::see(Session& session) {
-  trail_.add(sighting_of(session));
-  for (std::size_t place = 0; place < actors_.size(); ++place) actors_[place].see(followed(place));
+  for (std::size_t i = 0; i < trails_.size(); ++i) trails_[i].add(sighting_of(session, static_cast<int>(i)));
+  for (std::size_t i = 0; i < actors_.size(); ++i) actors_[i].see(followed(trails_[i / school_], i % school_));
 }
 
 void Cast::pose(float t, float dt_s, const Pane& pane) {
@@ -85,7 +83,7 @@ void Cast::pose(float t, float dt_s, const Pane& pane) {
 }
 
 void Cast::draw(Scene& scene) const {
-  for (std::size_t place = actors_.size(); place-- > 0;) actors_[place].draw(scene);  // the leader on top
+  for (std::size_t i = actors_.size(); i-- > 0;) actors_[i].draw(scene);  // leaders over their followers
 }
 
 void Cast::next_character() {

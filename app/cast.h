@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everybody on the canvas: one actor a fish, and behind each, if asked for, a school that follows it with delays.
 //
-// Session steps -> posed drawings. Fish i wears character i of the wardrobe (round and round), its followers the next ones;
-// next_character() moves everybody on by one. A follower swims what its fish swam a little earlier, shifted back and to one
+// Session steps -> posed drawings. Fish i, by the number that capture gives it, wears character i of the wardrobe (round and
+// round), its followers the next ones; next_character() moves everybody on by one. A follower swims what its fish swam a little earlier, shifted back and to one
 // side in the body lengths and the direction of that moment, so a turn runs through the school; it is drawn a little smaller.
 // Memory: what a fish did, for as long as the last follower is late. Nothing is allocated after the constructor.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,16 +24,16 @@ namespace nt {
 struct CastOptions {
   std::vector<std::string> characters;  // paths; at least one
   int school = 1;                       // drawings a fish: itself and its followers
-  MlsKind mls = MlsKind::rigid;
+  std::optional<MlsKind> mls;           // unset: as the character's file says
 };
 void add_cast_options(CLI::App& command, CastOptions& options);
 
-Sighting sighting_of(Session& session);  // of the last step
+Sighting sighting_of(Session& session, int fish = Capture::kTarget);  // of the last step
 
 class Cast {
  public:
-  // `fps` of the camera. Throws UserError.
-  Cast(const CastOptions& options, double fps);
+  // For as many fish as the session follows at a time. Throws UserError.
+  Cast(const CastOptions& options, Session& session);
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
@@ -44,7 +45,7 @@ class Cast {
 
   void next_character();
   const std::string& character_name() const { return wardrobe_.path(leader().costume()); }
-  const Actor& leader() const { return actors_.front(); }
+  const Actor& leader() const { return actors_.front(); }  // of the first fish
 
  private:
   // What one fish did lately, in a ring.
@@ -64,12 +65,13 @@ class Cast {
     std::size_t at_ = 0;
   };
 
-  Sighting followed(std::size_t place) const;  // what the actor at this place of the school is shown
+  Sighting followed(const Trail& trail, std::size_t place) const;  // what the actor at this place of a school is shown
 
   Wardrobe wardrobe_;
+  std::size_t school_;
   std::size_t delay_frames_;
-  Trail trail_;
-  std::vector<Actor> actors_;
+  std::vector<Trail> trails_;  // one a fish
+  std::vector<Actor> actors_;  // a fish's school, then the next fish's
 };
 
 }  // namespace nt

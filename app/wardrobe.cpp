@@ -31,9 +31,11 @@ LoadedCharacter load_character(const std::string& path) {
   return LoadedCharacter(authored.bytes, path, Limits{});
 }
 
-Wardrobe::Wardrobe(const std::vector<std::string>& paths, const RetargetSettings& settings) {
+Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls) {
   for (const std::string& path : paths) {
     Costume costume{path, load_character(path), {}, nullptr};
+    RetargetSettings settings;
+    settings.mls = mls.value_or(costume.file.character().deformer);
     Arena measuring;
     (void)Retarget::create(measuring, costume.file.character(), settings);
     costume.memory = AlignedBlock(measuring.used());

@@ -4,6 +4,7 @@
 // Paths of character files, or of pictures and meshes that are turned into characters on the spot -> prepared characters, in the order
 // given. What depends on the rest pose alone is shared by all who wear it. Throws UserError.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ LoadedCharacter load_character(const std::string& path);
 
 class Wardrobe {
  public:
-  Wardrobe(const std::vector<std::string>& paths, const RetargetSettings& settings);
+  // Without `mls` each character is deformed as its file says.
+  Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls);
   std::size_t size() const { return costumes_.size(); }
   const Character& character(std::size_t index) const { return costumes_[index].file.character(); }
   const std::string& path(std::size_t index) const { return costumes_[index].path; }

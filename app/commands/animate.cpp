@@ -50,7 +50,7 @@ int inbetweens_for(const Options& options, double fps) {
 class Stage {
  public:
   Stage(const Options& options, Session& session)
-      : cast_(options.cast, session.info().fps),
+      : cast_(options.cast, session),
         overlay_pane_(pane_for(session.info().width, session.info().height)),
         actor_pane_(options.side_by_side ? beside(overlay_pane_) : overlay_pane_),
         overlay_(overlay_pane_),

@@ -62,7 +62,7 @@ void bench(const Options& options) {
   std::optional<Wardrobe> wardrobe;
   std::optional<Actor> actor;
   if (!options.character.empty()) {
-    wardrobe.emplace(std::vector<std::string>{options.character}, RetargetSettings{});
+    wardrobe.emplace(std::vector<std::string>{options.character}, std::nullopt);
     actor.emplace(*wardrobe, 0);
   }
   const Pane pane = pane_for(session.info().width, session.info().height);

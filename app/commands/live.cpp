@@ -48,7 +48,7 @@ class Live {
   explicit Live(const Options& options)
       : options_(options),
         session_(options.capture),
-        cast_(options.cast, session_.info().fps),
+        cast_(options.cast, session_),
         camera_pane_(pane_for(session_.info().width, session_.info().height)),
         actor_pane_(options.layout == "beside" ? beside(camera_pane_) : camera_pane_),
         overlay_(camera_pane_),

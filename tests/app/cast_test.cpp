@@ -39,7 +39,7 @@ Vec2 mean(std::span<const Vec2> points) {
 
 TEST(Cast, ASchoolFollowsOneAfterTheOtherAndKeepsApart) {
   Session session(tank());
-  Cast cast(cast_of({kCarp}, 4), session.info().fps);
+  Cast cast(cast_of({kCarp}, 4), session);
   const Pane pane = pane_for(480, 272);
   int first_seen[5] = {-1, -1, -1, -1, -1};
   Scene scene;
@@ -61,7 +61,7 @@ TEST(Cast, ASchoolFollowsOneAfterTheOtherAndKeepsApart) {
 
 TEST(Cast, TheNextCharacterTakesOverInPlace) {
   Session session(tank());
-  Cast cast(cast_of({kCarp, kCarp}), session.info().fps);
+  Cast cast(cast_of({kCarp, kCarp}), session);
   const Pane pane = pane_for(480, 272);
   while (!cast.leader().seen() && session.step()) cast.see(session);
   for (int n = 0; n < 10 && session.step(); ++n) {
@@ -86,7 +86,7 @@ TEST(Cast, TheNextCharacterTakesOverInPlace) {
 TEST(Cast, NothingIsAllocatedAfterTheFirstFrame) {
   if (!heap_count_available()) GTEST_SKIP() << "allocations cannot be counted in this build";
   Session session(tank());
-  Cast cast(cast_of({kCarp, kCarp}, 3), session.info().fps);
+  Cast cast(cast_of({kCarp, kCarp}, 3), session);
   const Pane pane = pane_for(480, 272);
   Backdrop backdrop({BackdropOption::Kind::camera, kWater, ""}, pane, session);
   Scene scene;

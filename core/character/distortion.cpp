@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/character/distortion.h"
 
+#include "core/character/fin_region.h"
+
 namespace nt {
 namespace {
 
@@ -45,16 +47,13 @@ bool DistortionMeter::steep(std::size_t triangle) const {
 }
 
 void DistortionMeter::mark_fin(int index, const FinPoints& fin) {
-  const Vec2 root = lerp(fin.top, fin.bottom, 0.5f), along = fin.bottom - fin.top;
-  const float reach = kFinReach * kFinReach * length_sq(fin.tip - root);
-  const float side = cross(along, fin.tip - fin.top) < 0.0f ? -1.0f : 1.0f;
+  const FinRegion region(character_, fin, kFinReach);
   const std::span<const uint32_t> t = character_.triangles;
   const std::span<const Vec2> v = character_.vertices;
   for (std::size_t i = 0; i < part_.size(); ++i) {
     if (part_[i] != 0) continue;
     const Vec2 a = v[t[3 * i]], b = v[t[3 * i + 1]], c = v[t[3 * i + 2]];
-    const Vec2 at = middle(a, b, c);
-    if (side * cross(along, at - fin.top) <= 0.0f || length_sq(at - root) > reach) continue;
+    if (!region.holds(middle(a, b, c))) continue;
     part_[i] = static_cast<uint8_t>(1 + index);
     rest_area_[1 + index] += magnitude(area2(a, b, c));
   }

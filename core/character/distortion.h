@@ -6,8 +6,7 @@
 // A triangle turns over when its area's sign, seen from above, differs from the rest pose's. One without area at rest is
 // passed over, and so is one of a 3D character that stands so steeply that less than a third of it is seen from above:
 // there the sign says nothing.
-// A fin's triangles: beyond the line through its two junctions, on the tip's side, with their centre no farther from the
-// junctions' middle than the tip is, and a tenth.
+// A fin's triangles are those whose centre its region holds (fin_region.h), with a tenth more reach than its tip's.
 // Memory: 1 byte per triangle, from the arena. Cost: 12 flops per triangle, 10 us for 4,000.
 #pragma once
 #include <cstdint>

@@ -2,6 +2,7 @@
 #include "core/character/retarget.h"
 
 #include "core/base/det_math.h"
+#include "core/character/fin_region.h"
 
 namespace nt {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 // of the body take some more), or a fin whose area is off by more than this (of the 10 % that it may be with them).
 constexpr float kRangeStep = 0.05f;
 constexpr float kCrushedArea = 0.1f;
-constexpr float kFinAreaOff = 0.08f;
+constexpr float kFinAreaOff = 0.06f;
 
 // A body's control points lie nearly on a line, and affine deformation shears without bound where it sees only that line:
 // with 0.02 in place of this the bundled carp turns 2,988 triangles over in the tank's `turns`, with this none.
@@ -88,22 +89,21 @@ void Retarget::add_fin(int index) {
   rest_[control_count_++] = top;
   rest_[control_count_++] = bottom;
   rest_[control_count_++] = tip;
-  spread_spots(fin);
+  spread_spots(fin, character_.rest.fins[index]);
 }
 
 // The vertices of the fin that lie farthest from its tip and from each other, one after the other.
-void Retarget::spread_spots(const Fin& fin) {
-  const Vec2 top = rest_[fin.first], bottom = rest_[fin.first + 1], tip = rest_[fin.first + 2];
-  const Vec2 root = lerp(top, bottom, 0.5f), outwards = normalised(bottom - top);
-  const float side = cross(outwards, tip - top) < 0.0f ? -1.0f : 1.0f;
-  const float reach_sq = length_sq(tip - root), from = kSpotsFrom * distance(top, tip);
+void Retarget::spread_spots(const Fin& fin, const FinPoints& points) {
+  const FinRegion region(character_, points, 1.0f);
+  const Vec2 root = lerp(points.top, points.bottom, 0.5f);
+  const float from = kSpotsFrom * distance(points.top, points.tip);
   for (std::size_t k = 0; k < kFinSpots; ++k) {
-    Vec2 best = lerp(root, tip, 0.5f + 0.06f * static_cast<float>(k));  // where the fin has no vertices
+    Vec2 best = lerp(root, points.tip, 0.5f + 0.06f * static_cast<float>(k));  // where the fin has no vertices
     float farthest = 0;
     for (const Vec2 v : character_.vertices) {
-      if (length_sq(v - root) > reach_sq || side * cross(outwards, v - top) < from) continue;
-      float nearest = reach_sq;
-      for (std::size_t i = fin.first + 2; i < control_count_; ++i) {
+      if (region.beyond(v) < from || !region.holds(v)) continue;
+      float nearest = length_sq(v - points.tip);
+      for (std::size_t i = fin.first + 3; i < control_count_; ++i) {
         nearest = det::min(nearest, length_sq(v - rest_[i]));
       }
       if (nearest <= farthest) continue;

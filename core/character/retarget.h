@@ -108,7 +108,7 @@ class Retarget {
   void collect_rest();
   void add_fin(int index);
   void find_fin_range(int index);
-  void spread_spots(const Fin& fin);
+  void spread_spots(const Fin& fin, const FinPoints& points);
   bool fin_fits(int index, float open);
   void turn_fin(const Fin& fin, float open, float body_turn);
   void pose_body(const Motion& motion);

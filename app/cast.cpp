@@ -21,7 +21,7 @@ std::size_t delay_frames(double fps) { return static_cast<std::size_t>(std::max(
 
 }  // namespace
 
-void add_cast_options(CLI::App& command, CastOptions& options) {
+void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture) {
   command
       .add_option(
           "--character", options.characters,
@@ -29,9 +29,12 @@ void add_cast_options(CLI::App& command, CastOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();
-  command.add_option("--school", options.school, "so many drawings follow one another (default 1)")
+  command.add_option("--school", options.school, "so many drawings a fish, one following the other (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, kMostInSchool));
+  command.add_option("--max-fish", capture.max_fish, "follow so many fish at a time, a drawing for each (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostFish));
   const std::map<std::string, MlsKind> kinds = {
       {"rigid", MlsKind::rigid}, {"similarity", MlsKind::similarity}, {"affine", MlsKind::affine}};
   command

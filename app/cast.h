@@ -26,7 +26,8 @@ struct CastOptions {
   int school = 1;                       // drawings a fish: itself and its followers
   std::optional<MlsKind> mls;           // unset: as the character's file says
 };
-void add_cast_options(CLI::App& command, CastOptions& options);
+// With --max-fish, which is the capture's.
+void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture);
 
 Sighting sighting_of(Session& session, int fish = Capture::kTarget);  // of the last step
 

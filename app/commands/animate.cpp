@@ -95,11 +95,12 @@ class Stage {
 };
 
 void check(const Options& options) {
-  const std::size_t shown = static_cast<std::size_t>(options.cast.school);
+  const auto shown = static_cast<std::size_t>(options.cast.school * options.capture.max_fish);
   if (options.cast.characters.size() > shown) {
     throw UserError("--character: " + std::to_string(options.cast.characters.size()) + " characters for " +
                         std::to_string(shown) + " drawing" + (shown > 1 ? "s" : "") +
-                        "; leave some out, or ask for --school " + std::to_string(options.cast.characters.size()),
+                        "; leave some out, or ask for --max-fish or --school " +
+                        std::to_string(options.cast.characters.size()),
                     2);
   }
   std::vector<std::string> inputs = inputs_of(options.capture);
@@ -146,7 +147,7 @@ void add_animate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("animate", "Make a video in which the character swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
-  add_cast_options(*command, options->cast);
+  add_cast_options(*command, options->cast, options->capture);
   command->add_option("-o,--out", options->out, "the video")->type_name("FILE.mp4")->required();
   command->add_flag("--side-by-side", options->side_by_side, "the camera with its overlay on the left");
   command

@@ -205,7 +205,7 @@ void add_live(CLI::App& app, Action& action) {
       app.add_subcommand("live", "Open a window: the camera beside the character that swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
-  add_cast_options(*command, options->cast);
+  add_cast_options(*command, options->cast, options->capture);
   command
       ->add_option("--layout", options->layout,
                    "beside: camera left, character right; behind: character over the camera; alone: character only")

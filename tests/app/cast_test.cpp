@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/ui/backdrop.h"
 #include "platform/linux/heap_count.h"
 
@@ -57,6 +59,28 @@ TEST(Cast, ASchoolFollowsOneAfterTheOtherAndKeepsApart) {
   const auto items = scene.items();
   const Vec2 leader = mean(items.back().positions);  // drawn last, on top
   for (int i = 0; i < 3; ++i) EXPECT_GT(length(mean(items[static_cast<std::size_t>(i)].positions) - leader), 30) << i;
+}
+
+TEST(Cast, EveryFishHasItsDrawing) {
+  CaptureOptions options = tank();
+  options.camera = parse_camera_spec("sim:scene=crossing,seed=1,size=480x272");
+  options.max_fish = 2;
+  Session session(options);
+  Cast cast(cast_of({kCarp, kCarp}), session);
+  const Pane pane = pane_for(480, 272);
+  int most = 0;
+  for (int n = 0; n < 300 && most < 2 && session.step(); ++n) {
+    cast.see(session);
+    cast.pose(1, 1 / 30.0f, pane);
+    Scene scene;
+    scene.clear(pane.width, pane.height, kWater);
+    cast.draw(scene);
+    most = std::max(most, meshes(scene));
+    if (most < 2) continue;
+    EXPECT_NE(scene.items()[0].picture.id, scene.items()[1].picture.id);
+    EXPECT_GT(length(mean(scene.items()[0].positions) - mean(scene.items()[1].positions)), 20);
+  }
+  EXPECT_EQ(most, 2);
 }
 
 TEST(Cast, TheNextCharacterTakesOverInPlace) {

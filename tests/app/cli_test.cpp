@@ -70,6 +70,7 @@ TEST(Cli, CharactersBackdropsAndSchoolsThatCannotBe) {
   expect_one_line(neontetra(animate + " --school 0"), 2, "--school");
   expect_one_line(neontetra(animate + " --school many"), 2, "--school");
   expect_one_line(neontetra(animate + " --mls stiff"), 2, "--mls");
+  expect_one_line(neontetra(animate + " --max-fish 99"), 2, "--max-fish");
   expect_one_line(neontetra(animate + " --character " + kCarp), 2, "--school 2");
   expect_one_line(neontetra("animate -c sim:frames=2 --out x.mp4 --character /no/carp.png"), 1, "/no/carp.png");
   expect_one_line(neontetra("live -c sim --character " + kCarp + " --info-text '%speed'"), 2, "%speed");

@@ -33,6 +33,7 @@ using nt::test::quantile;
 
 constexpr double kPaperOne_us = 7780;  // [F] Table 3, 3D whale of 6,003 vertices, one retargeting, Core i7-3970X
 constexpr int kArapRounds = 10;
+constexpr float kThinSpread = 0.15f;  // as core/character/retarget has it
 
 struct Options {
   nt::TankSettings tank{.scene = "turns"};
@@ -239,7 +240,7 @@ std::vector<Shape> compare_shapes(const Options& o, const Swim& swim) {
   const float alpha = nt::RetargetSettings{}.mls_alpha;
   const auto lay_out = [&](nt::Arena& arena, std::vector<nt::Mls*>& mls) {
     for (const nt::MlsKind kind : kinds)
-      mls.push_back(nt::Mls::create(arena, character.vertices, retarget.rest_handles(), kind, alpha));
+      mls.push_back(nt::Mls::create(arena, character.vertices, retarget.rest_handles(), kind, alpha, kThinSpread));
     return nt::DistortionMeter::create(arena, character);
   };
   std::vector<nt::Mls*> none, mls;

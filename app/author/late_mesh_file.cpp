@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/author/mesh_file.h"
+#include "app/author/triangle_mesh.h"
 #include "platform/codecs.h"
 
 namespace nt {
@@ -21,6 +22,14 @@ SourceMesh read_mesh(const std::string& path, const ToldAxes& told) {
   static const auto read = reinterpret_cast<Read>(codecs_function("neontetra_read_mesh"));
   SourceMesh mesh;
   read(path, told, mesh);
+  return mesh;
+}
+
+TriangleMesh read_triangles(const std::string& path) {
+  using Read = void (*)(const std::string&, TriangleMesh&);
+  static const auto read = reinterpret_cast<Read>(codecs_function("neontetra_read_triangles"));
+  TriangleMesh mesh;
+  read(path, mesh);
   return mesh;
 }
 

@@ -38,7 +38,7 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above
 
 }  // namespace
 
-TriangleMesh read_triangles(const std::string& path) {
+TriangleMesh read_triangles_file(const std::string& path) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {

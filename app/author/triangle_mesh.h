@@ -11,4 +11,7 @@ namespace nt {
 
 TriangleMesh read_triangles(const std::string& path);
 
+// The same, inside libneontetra_codecs.so (platform/codecs.h).
+TriangleMesh read_triangles_file(const std::string& path);
+
 }  // namespace nt

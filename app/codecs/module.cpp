@@ -9,6 +9,7 @@ extern "C" {
 #include <opencv2/imgcodecs.hpp>
 
 #include "app/author/mesh_file.h"
+#include "app/author/triangle_mesh.h"
 #include "app/codecs/libav_video.h"
 #include "platform/codecs.h"
 #include "platform/sim/decoded_files.h"
@@ -30,4 +31,9 @@ extern "C" __attribute__((visibility("default"))) void neontetra_read_mesh(const
                                                                            const nt::ToldAxes& told,
                                                                            nt::SourceMesh& mesh) {
   mesh = nt::read_mesh_file(path, told);
+}
+
+extern "C" __attribute__((visibility("default"))) void neontetra_read_triangles(const std::string& path,
+                                                                                nt::TriangleMesh& mesh) {
+  mesh = nt::read_triangles_file(path);
 }

@@ -11,13 +11,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "platform/camera.h"
+#include "platform/codecs.h"
 
 namespace nt {
 namespace {
 
 // The middle of the picture that has the pane's shape, in the pane's size.
 cv::Mat fitted(const std::string& path, const Pane& pane) {
-  const cv::Mat bgr = cv::imread(path, cv::IMREAD_COLOR);
+  const cv::Mat bgr = codecs().read_picture(path, cv::IMREAD_COLOR);
   if (bgr.empty()) throw UserError("--backdrop: cannot read the picture " + path);
   const double scale =
       std::min(bgr.cols / static_cast<double>(pane.width), bgr.rows / static_cast<double>(pane.height));

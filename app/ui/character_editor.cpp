@@ -321,7 +321,7 @@ void CharacterEditor::compose(const Layout& l, float dt_s) {
   }
   swim_->step(dt_s, l.canvas.centre(), kSwimLength * std::min(l.canvas.size.x, l.canvas.size.y));
   Picture texture = worn_.character.texture;
-  texture.id = kCharacterPicture;
+  texture.id = kFirstCharacterPicture;
   scene_.mesh(texture, swim_->vertices(), worn_.character.texcoords, worn_.character.triangles);
 }
 

@@ -56,7 +56,7 @@ void EditorCanvas::draw(Scene& scene, const Editor& editor, const FigureView& vi
   vertices_.clear();
   for (const Vec2 v : figure_.vertices()) vertices_.push_back(view.to_scene(v));
   Picture texture = figure_.texture();
-  texture.id = kCharacterPicture;
+  texture.id = kFirstCharacterPicture;
   scene.mesh(texture, vertices_, figure_.texcoords(), figure_.triangles());
   add_skeleton(scene, editor.rig(), view, dot);
   add_points(scene, editor.rig(), view, dot);

@@ -24,7 +24,7 @@ struct ToldHead {
 struct FigureEnds {
   Path path;                      // from head to tail
   std::optional<Vec2> tail_twin;  // where the path ends at one corner of a tail fin, the other
-  double head_confidence = 0;  // that the head is at this end; 0 a guess, 1 sure
+  double head_confidence = 0;     // that the head is at this end; 0 a guess, 1 sure
   double ends_confidence = 0;     // that these two are the ends
   double mirror_likeness = 0;
   bool on_mirror = false;  // the ends lie on the figure's mirror line

@@ -106,7 +106,7 @@ TEST(CorrectionsText, FuzzedTextIsReadOrRefusedInOneLine) {
   Random random(7);
   const std::string letters = "=,.- \n\t#\r0123456789enoys_afinrtlhdmux\x01\xff";
   int read = 0, refused = 0;
-  for (int round = 0; round < 8'000; ++round) {
+  for (int round = 0; round < 20'000; ++round) {
     std::string text = round % 4 == 0 ? "" : kEverything;
     for (uint32_t changes = 1 + random.below(6); changes > 0; --changes) {
       const char letter = letters[random.below(static_cast<uint32_t>(letters.size()))];

@@ -42,7 +42,9 @@ std::string write_ten(const std::string& path, bool repair) {
     csv.add(i, i * 40'000'000, pose, {wrong ? -1.0f : 1.0f, i == 3 || i == 6 ? -6.0f : 6.0f});
   }
   csv.close();
-  if (repair) EXPECT_EQ(csv.look_back(), 2);
+  if (repair) {
+    EXPECT_EQ(csv.look_back(), 2);
+  }
   std::ifstream in(path);
   return {std::istreambuf_iterator<char>(in), {}};
 }

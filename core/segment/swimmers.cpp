@@ -17,6 +17,9 @@ constexpr int kMissedFrames = 5;      // and after so many without it, it is for
 constexpr int kMostHeapFrames = 150;  // fish that stay over each other for longer are taken for one
 constexpr int kHiddenFrames = 20;     // a heap no larger than one fish for so long is one fish
 constexpr float kFishBeside = 0.35f;  // of the other's area: what is smaller is a part of it, or hides little of it
+constexpr int kTrustedFrames =
+    30;                            // seen for less, a swimmer may be a piece of a fish, a light: it gives way to others
+constexpr float kNewcomer = 0.1f;  // this much it counts at first
 constexpr float kSwum = 0.5f, kLikely = 0.2f;  // lengths; fish_likeness
 constexpr float kOneFish = 1.2f;               // of its area
 constexpr float kSlowing = 0.97f;              // of the speed is left after a frame unseen
@@ -30,6 +33,13 @@ bool inside(const Box& box, Vec2 p, float margin) {
 float log_ratio(float a, float b) { return det::abs(det::log(det::max(a, 1.0f) / det::max(b, 1.0f))); }
 
 Looks looks_of(const Blob& blob, float luma) { return {static_cast<float>(blob.area_px), length_of(blob), luma}; }
+
+// What it weighs that a swimmer finds its blob.
+float worth(const Swimmer& s) {
+  if (s.followed) return 1.0f;
+  if (s.part_of != 0) return kNewcomer;
+  return det::clamp(static_cast<float>(s.frames) / kTrustedFrames, kNewcomer, 1.0f);
+}
 
 }  // namespace
 
@@ -180,6 +190,7 @@ void Swimmers::update(std::span<const Blob> blobs, std::span<const Run> runs, Lu
   drop_the_lost();
   look_at(blobs, runs, luma);
   match(blobs);
+  claim_pieces(blobs);
   find_heaps(blobs);
   welcome(blobs);
 }
@@ -227,7 +238,8 @@ void Swimmers::match(std::span<const Blob> blobs) {
     const float shade = i < kMostColumns ? luma_[static_cast<std::size_t>(i)] : 0.0f;
     bool wanted = false;
     for (int k = 0; k < count_; ++k) {
-      const float c = cost(swimmers_[static_cast<std::size_t>(k)], blobs[static_cast<std::size_t>(i)], shade);
+      const Swimmer& s = swimmers_[static_cast<std::size_t>(k)];
+      const float c = kMostCost - worth(s) * (kMostCost - cost(s, blobs[static_cast<std::size_t>(i)], shade));
       costs[static_cast<std::size_t>(k * kMostColumns + width)] = c;
       wanted |= c < kMostCost;
     }
@@ -239,6 +251,33 @@ void Swimmers::match(std::span<const Blob> blobs) {
     swimmers_[static_cast<std::size_t>(k)].blob = j < 0 || j >= width ? -1 : blob_of[static_cast<std::size_t>(j)];
   }
   drop_doubles(blobs);
+}
+
+// Of the blobs where a fish must be, the largest that is no other fish's; its own where there is none.
+int Swimmers::largest_piece(const Swimmer& one, std::span<const Blob> blobs) const {
+  int best = one.blob;
+  int most = best >= 0 ? blobs[static_cast<std::size_t>(best)].area_px : 0;
+  for (int i = 0; i < static_cast<int>(blobs.size()) && i < kConsidered; ++i) {
+    const Blob& blob = blobs[static_cast<std::size_t>(i)];
+    const bool fits = static_cast<float>(blob.area_px) < kOneFish * one.area_px();
+    if (blob.ghost || blob.area_px <= most || !fits || !inside(one.box, blob.centroid - one.moved(), 0)) continue;
+    bool taken = false;
+    for (const Swimmer& other : all()) taken |= &other != &one && other.blob == i && worth(other) >= 1.0f;
+    if (!taken) best = i, most = blob.area_px;
+  }
+  return best;
+}
+
+// Noise and light break a fish in pieces: it is seen in the largest, and whoever was thought to be that piece is a part.
+void Swimmers::claim_pieces(std::span<const Blob> blobs) {
+  for (Swimmer& s : all()) {
+    if (worth(s) < 1.0f || s.in_heap) continue;
+    const int piece = largest_piece(s, blobs);
+    if (piece == s.blob) continue;
+    for (Swimmer& other : all())
+      if (other.blob == piece) other.blob = -1, other.part_of = s.id;
+    s.blob = piece;
+  }
 }
 
 // What came out of a heap and was not known again at once: its blob is now that of one who was in the heap.

@@ -106,6 +106,8 @@ class Swimmers {
  private:
   void look_at(std::span<const Blob> blobs, std::span<const Run> runs, LumaView luma);
   void match(std::span<const Blob> blobs);
+  void claim_pieces(std::span<const Blob> blobs);
+  int largest_piece(const Swimmer& one, std::span<const Blob> blobs) const;
   void find_heaps(std::span<const Blob> blobs);
   bool is_small_beside(const Swimmer& swimmer, int blob) const;
   int heap_of(const Swimmer& swimmer, std::span<const Blob> blobs) const;

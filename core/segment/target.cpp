@@ -34,7 +34,8 @@ Swimmer* Target::better(Swimmers& swimmers, std::span<const Blob> blobs) const {
   Swimmer* best = nullptr;
   float best_score = 0;
   for (Swimmer& s : swimmers.all()) {
-    if (s.blob < 0 || s.in_heap) continue;
+    // A piece of a fish is no better fish than the whole.
+    if (s.blob < 0 || s.in_heap || (mine != nullptr && s.part_of != 0)) continue;
     const float here = score(s, blob_of(s, blobs));
     if (here > best_score) best_score = here, best = &s;
   }

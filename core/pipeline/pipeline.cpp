@@ -89,7 +89,10 @@ bool CaptureImpl::layout(Arena& arena, int w, int h) {
   auto model = Background::create(arena, limits, settings.background, w, h, settings.seed);
   if (!model.ok()) return false;
   background = model.value();
-  stabiliser = Stabiliser::create(arena, settings.stabilise, w, h);
+  // An even field shows nothing of the camera's motion, only particles of their own.
+  const bool even = settings.background.kind == BackgroundKind::backlit;
+  const Stabilise mode = even && settings.stabilise == Stabilise::automatic ? Stabilise::off : settings.stabilise;
+  stabiliser = Stabiliser::create(arena, mode, w, h);
   raw = take_mask(arena, w, h);
   scratch = take_mask(arena, w, h);
   open = take_mask(arena, w, h);

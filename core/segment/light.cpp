@@ -91,11 +91,12 @@ Relight Light::update(LumaView luma, bool keeps_pixels) {
   } else {
     model_ += kFollow * (now - model_);
   }
+  // What is kept must stand for the same light as what is learned around it: flicker is no matter of either.
   if (!keeps_pixels) {
-    kept_ = now;
-  } else if (det::abs(now - kept_) > kStep * kept_) {
-    relight.kept = now / kept_;
-    kept_ = now;
+    kept_ = model_;
+  } else if (det::abs(model_ - kept_) > kStep * kept_) {
+    relight.kept = model_ / kept_;
+    kept_ = model_;
   }
   return relight;
 }

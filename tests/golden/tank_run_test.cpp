@@ -21,18 +21,18 @@ struct Golden {
 };
 
 constexpr Golden kGolden[] = {
-    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "59fcd9594622822e", "851cc9ddc5aa203b",
-     "2ed29d1759714ee7"},
-    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "2db1d9cd4fbcc6d5", "ca9eba06b4596701",
-     "638295788e8d7f49"},
-    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "51331b773dd440b5", "e1bbd65e1b596808",
-     "ecaae93d16706677"},
-    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "ec1c8a9b9be4f12b", "f24c7630f8e40ed4",
-     "2adfb276454849e8"},
-    {"calm", nt::BackgroundKind::still, 120, 960, 544, "4b5cb26b8a3874dc", "4e330cc078839fb6", "3580814976f4ae2f",
-     "8712010e44978de4"},
-    {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "8ef6eb093eefaea6", "175191e700f574f6",
-     "6774d41723bd1b5d"},
+    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "fa2a1e790d1e136d", "bbdf7198ec9d8914",
+     "77a65e1dc87b0f5a"},
+    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "f9f7ec970c561daf", "2b0c72bf9f151935",
+     "dface9ef95ddfe34"},
+    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "01c2f06979cfcddb", "186cbac56dfa8af7",
+     "3cd13bb6b7e68653"},
+    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "915ceb338501258f", "7f8ea19ece28136c",
+     "bf79a3e20a7a959f"},
+    {"calm", nt::BackgroundKind::still, 120, 960, 544, "4b5cb26b8a3874dc", "4e330cc078839fb6", "7fd9667d39eec822",
+     "22edb003c5eb79b0"},
+    {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "f79b37aebd35f671", "efc26d0fd3ca71a7",
+     "0a154b2163868d19"},
 };
 
 uint64_t hash_float(float v, uint64_t seed) {

@@ -11,6 +11,7 @@ constexpr int kLast = kStations - 1;
 // A ray that leaves the outline farther than this from its end point (share of the length) left through a flank.
 constexpr float kNearEnd = 0.06f, kNearHead = 0.12f;  // a blunt head's end point may be its corner
 constexpr float kNearNotch = 0.02f;                   // of a forked tail: farther away lies a lobe
+constexpr float kNotchAhead = 0.7f;                   // cosine: a notch lies within 45 degrees of where the tail points
 constexpr int kFinsFrom = 7, kFinsTo = 42;            // stations where pectoral fins can stand
 // Of the smoother: the axis may bend within about four stations; the body's width changes over ten or more.
 constexpr float kAxisStiffness = 1.0f, kBodyStiffness = 60.0f;
@@ -117,11 +118,24 @@ struct Reliable {
   int first, last;
 };
 
+// The last station up to `last` that has the notch ahead, within kNotchAhead of where the axis goes: one that strayed into a
+// lobe has it abeam, and the axis drawn from there would hook.
+int before_notch(const Axis& axis, Vec2 notch, int last) {
+  for (int j = last; j > 3 * kLast / 4; --j) {
+    const Vec2 p = axis.points[static_cast<std::size_t>(j)];
+    const Vec2 forward = normalised(p - axis.points[static_cast<std::size_t>(j - 4)]);
+    if (dot(normalised(notch - p), forward) >= kNotchAhead) return j;
+  }
+  return 3 * kLast / 4;
+}
+
 Reliable reliable_part(const Axis& axis, const AxisEnds& ends) {
   const Segments segments(axis);
-  return {
-      clamp_int(static_cast<int>((place_of(segments, ends.head) + ends.head_trim) * kLast) + 1, 1, kLast / 4),
-      clamp_int(static_cast<int>((place_of(segments, ends.tail) - ends.tail_trim) * kLast), 3 * kLast / 4, kLast - 1)};
+  const int first =
+      clamp_int(static_cast<int>((place_of(segments, ends.head) + ends.head_trim) * kLast) + 1, 1, kLast / 4);
+  const int last =
+      clamp_int(static_cast<int>((place_of(segments, ends.tail) - ends.tail_trim) * kLast), 3 * kLast / 4, kLast - 1);
+  return {first, ends.notched ? before_notch(axis, ends.tail, last) : last};
 }
 
 Axis with_ends(const Axis& axis, Reliable part, Vec2 head, Vec2 tail) {

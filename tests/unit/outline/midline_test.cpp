@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tests/support/fish_outline.h"
@@ -109,6 +110,23 @@ TEST(Midline, TheAxisRunsToTheEndsOfTheOutline) {
     EXPECT_LT(length(axis.points[kLast] - s.fish.tail()), 3);
     EXPECT_NEAR(axis.length, s.fish.axis_length(), 3);
   }
+}
+
+TEST(Midline, AnAxisThatStrayedIntoALobeRunsStraightToTheNotch) {
+  const std::vector<Vec2> line{{0, 0}, {76, 0}, {88, 20.8f}};  // the last part in a lobe, 60 degrees aside
+  const Vec2 notch{94, -1};
+  const auto sharpest_cosine = [&](bool notched) {
+    const Axis axis = joined_to_ends(resampled(line), {{0, 0}, notch, 0, 0, notched});
+    EXPECT_EQ(length(axis.points[kLast] - notch), 0);
+    float least = 1;
+    for (std::size_t j = 4; j + 4 <= kLast; ++j) {
+      const Vec2 before = axis.points[j] - axis.points[j - 4], after = axis.points[j + 4] - axis.points[j];
+      least = std::min(least, dot(before, after) / (length(before) * length(after)));
+    }
+    return least;
+  };
+  EXPECT_GT(sharpest_cosine(true), 0.7f);
+  EXPECT_LT(sharpest_cosine(false), 0.3f) << "taken for an end without a notch, this axis hooks";
 }
 
 TEST(Midline, TheFirstAxisHalvesTheSmoothOutline) {

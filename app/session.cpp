@@ -124,7 +124,8 @@ BackgroundKind Session::choose_model(const CaptureOptions& options) {
     why_ = "a moving camera";
     return BackgroundKind::vibe;
   }
-  const BackgroundChoice choice = choose_background(spread_frames(*camera_));
+  const BackgroundChoice choice = choose_background(spread_small(*camera_));
+  give_back_freed_memory();  // what the look ahead took, 15 MB
   why_ = choice.why;
   announcement_ = std::string("background: ") + model_name(choice.kind) + " (" + why_ + ")";
   return choice.kind;

@@ -139,6 +139,12 @@ double first_place_covered(const std::vector<cv::Mat>& frames, const cv::Mat& ty
   return covered / static_cast<double>(frames.size());
 }
 
+cv::Mat view_of(const Frame& frame) {
+  const LumaView& luma = frame.luma;
+  return cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data),
+                 static_cast<std::size_t>(luma.stride));
+}
+
 // What `look` makes of 24-48 frames spread evenly over the first kLookFrames; the camera is rewound.
 template <class Look>
 std::vector<cv::Mat> spread(Camera& camera, Look look) {
@@ -162,12 +168,11 @@ std::vector<cv::Mat> spread(Camera& camera, Look look) {
 }  // namespace
 
 std::vector<cv::Mat> spread_frames(Camera& camera) {
-  return spread(camera, [](const Frame& frame) {
-    const LumaView& luma = frame.luma;
-    return cv::Mat(luma.height, luma.width, CV_8U, const_cast<uint8_t*>(luma.data),
-                   static_cast<std::size_t>(luma.stride))
-        .clone();
-  });
+  return spread(camera, [](const Frame& frame) { return view_of(frame).clone(); });
+}
+
+std::vector<cv::Mat> spread_small(Camera& camera) {
+  return spread(camera, [](const Frame& frame) { return small_float(view_of(frame)); });
 }
 
 std::vector<cv::Mat> spread_pictures(Camera& camera) {
@@ -180,10 +185,8 @@ std::vector<cv::Mat> spread_pictures(Camera& camera) {
   });
 }
 
-BackgroundChoice choose_background(const std::vector<cv::Mat>& frames) {
-  if (frames.size() < 3) return {BackgroundKind::vibe, "there is nothing to look ahead at"};
-  std::vector<cv::Mat> small;
-  for (const cv::Mat& frame : frames) small.push_back(small_float(frame));
+BackgroundChoice choose_background(const std::vector<cv::Mat>& small) {
+  if (small.size() < 3) return {BackgroundKind::vibe, "there is nothing to look ahead at"};
   const cv::Mat typical = temporal_median(small);
 
   const cv::Mat surface = smooth_surface(typical);

@@ -25,11 +25,12 @@ inline constexpr int kLookFrames = 600;  // 20 s at 30 frames a second
 // Empty when the camera cannot rewind.
 std::vector<cv::Mat> spread_frames(Camera& camera);
 std::vector<cv::Mat> spread_pictures(Camera& camera);  // the same of the camera's pictures: grey, or rgb
+std::vector<cv::Mat> spread_small(Camera& camera);     // the same frames, float, at most 320 pixels wide
 
 struct BackgroundChoice {
   BackgroundKind kind = BackgroundKind::vibe;
   std::string why;
 };
-BackgroundChoice choose_background(const std::vector<cv::Mat>& frames);
+BackgroundChoice choose_background(const std::vector<cv::Mat>& small);  // as spread_small() gives them
 
 }  // namespace nt

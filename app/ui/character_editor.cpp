@@ -66,7 +66,7 @@ bool CharacterEditor::frame(float dt_s) {
   pointer_ = pointers_.next();
   if (!asking_) use_pointer(pointer_, layout);
   const DisplaySize size = display_.size();
-  panel_.begin(size.width, size.height, dt_s, pointer_, layout.unit);
+  panel_->begin(size.width, size.height, dt_s, pointer_, layout.unit);
   if (asking_) {
     show_question(layout);
   } else {
@@ -74,10 +74,10 @@ bool CharacterEditor::frame(float dt_s) {
     show_side(layout);
     show_status(layout);
   }
-  panel_.end();
+  panel_->end();
   if (!pointer_.down) editor_.end_gesture();
   compose(layout, dt_s);
-  display_.draw_over(scene_, [this] { panel_.draw(); });
+  display_.draw_over(scene_, [this] { panel_->draw(); });
   return !quit_;
 }
 
@@ -152,13 +152,13 @@ void CharacterEditor::use_pointer(const PointerState& pointer, const Layout& lay
 }
 
 void CharacterEditor::show_bar(const Layout& l) {
-  panel_.fill(l.bar, kSide);
+  panel_->fill(l.bar, kSide);
   constexpr int kButtons = 5;
   const float each = (l.bar.size.x - l.gap * (kButtons + 1)) / kButtons;
   int index = 0;
   const auto button = [&](const char* words, Panel::Look look) {
     const Vec2 corner{l.gap + static_cast<float>(index++) * (each + l.gap), l.gap};
-    return panel_.button({corner, {each, l.unit}}, words, look);
+    return panel_->button({corner, {each, l.unit}}, words, look);
   };
   using Look = Panel::Look;
   if (button("Undo", editor_.can_undo() ? Look::plain : Look::off)) editor_.undo();
@@ -174,17 +174,17 @@ Area CharacterEditor::row_area(const Layout& l, int row) const {
 }
 
 void CharacterEditor::show_side(const Layout& l) {
-  panel_.fill(l.side, kSide);
+  panel_->fill(l.side, kSide);
   int row = 0;
   show_tools(l, row);
   show_numbers(l, row);
   const int deformer =
-      panel_.choice(row_area(l, row++), {"Rigid", "Similar", "Affine"}, static_cast<int>(editor_.rig().deformer));
+      panel_->choice(row_area(l, row++), {"Rigid", "Similar", "Affine"}, static_cast<int>(editor_.rig().deformer));
   if (deformer >= 0) editor_.set_deformer(static_cast<MlsKind>(deformer));
   const Area last = row_area(l, row);
   const Vec2 half{0.5f * (last.size.x - l.gap), l.unit};
-  if (panel_.button({last.corner, half}, "Swap ends")) editor_.swap_head_and_tail();
-  if (panel_.button({{last.corner.x + half.x + l.gap, last.corner.y}, half}, "Start anew")) editor_.propose_anew();
+  if (panel_->button({last.corner, half}, "Swap ends")) editor_.swap_head_and_tail();
+  if (panel_->button({{last.corner.x + half.x + l.gap, last.corner.y}, half}, "Start anew")) editor_.propose_anew();
   show_legend(l);
 }
 
@@ -200,26 +200,26 @@ void CharacterEditor::show_legend(const Layout& l) {
     const Vec2 corner{l.side.corner.x + l.gap + static_cast<float>(i % 3) * cell.x,
                       top + static_cast<float>(i / 3) * cell.y};
     const float size = kDotShare * l.unit;
-    panel_.dot(corner + Vec2{0.7f * size, 0.5f * cell.y}, size, entries[i].colour, entries[i].rim);
-    panel_.text({corner + Vec2{1.6f * size, 0}, {cell.x - 1.7f * size, cell.y}}, entries[i].words, kInkSoft);
+    panel_->dot(corner + Vec2{0.7f * size, 0.5f * cell.y}, size, entries[i].colour, entries[i].rim);
+    panel_->text({corner + Vec2{1.6f * size, 0}, {cell.x - 1.7f * size, cell.y}}, entries[i].words, kInkSoft);
   }
 }
 
 void CharacterEditor::show_tools(const Layout& l, int& row) {
-  const int tool = panel_.choice(row_area(l, row++), {"Move", "Midline", "Fins"}, static_cast<int>(editor_.tool()));
+  const int tool = panel_->choice(row_area(l, row++), {"Move", "Midline", "Fins"}, static_cast<int>(editor_.tool()));
   if (tool >= 0) editor_.choose(static_cast<Tool>(tool));
   const Area fins = row_area(l, row++);
   const float words = 0.34f * fins.size.x;
-  panel_.text({fins.corner, {words, fins.size.y}}, "Fin pairs", kInk);
-  const int pairs = panel_.choice({{fins.corner.x + words, fins.corner.y}, {fins.size.x - words, fins.size.y}},
-                                  {"0", "1", "2"}, editor_.fin_pairs());
+  panel_->text({fins.corner, {words, fins.size.y}}, "Fin pairs", kInk);
+  const int pairs = panel_->choice({{fins.corner.x + words, fins.corner.y}, {fins.size.x - words, fins.size.y}},
+                                   {"0", "1", "2"}, editor_.fin_pairs());
   if (pairs >= 0) editor_.set_fin_pairs(pairs);
   const Area switches = row_area(l, row++);
   const float each = (switches.size.x - 2 * l.gap) / 3;
   int index = 0;
   const auto toggle = [&](const char* name, bool on) {
     const Vec2 corner{switches.corner.x + static_cast<float>(index++) * (each + l.gap), switches.corner.y};
-    return panel_.button({corner, {each, l.unit}}, name, on ? Panel::Look::on : Panel::Look::plain);
+    return panel_->button({corner, {each, l.unit}}, name, on ? Panel::Look::on : Panel::Look::plain);
   };
   if (toggle("Mirror", editor_.mirror())) editor_.set_mirror(!editor_.mirror());
   if (toggle("Flip", editor_.rig().flip)) editor_.set_flip(!editor_.rig().flip);
@@ -229,9 +229,9 @@ void CharacterEditor::show_tools(const Layout& l, int& row) {
 void CharacterEditor::show_numbers(const Layout& l, int& row) {
   int up = editor_.rig().u_num, low = editor_.rig().l_num;
   int harmonics = harmonics_.value_or(editor_.rig().harmonics);
-  if (panel_.number(row_area(l, row++), "Head joints", up, 1, kMaxUpAxis)) editor_.set_axis(up, low);
-  if (panel_.number(row_area(l, row++), "Tail joints", low, 1, kMaxLowAxis)) editor_.set_axis(up, low);
-  if (panel_.number(row_area(l, row++), "Detail S", harmonics, 1, kMostHarmonics)) harmonics_ = harmonics;
+  if (panel_->number(row_area(l, row++), "Head joints", up, 1, kMaxUpAxis)) editor_.set_axis(up, low);
+  if (panel_->number(row_area(l, row++), "Tail joints", low, 1, kMaxLowAxis)) editor_.set_axis(up, low);
+  if (panel_->number(row_area(l, row++), "Detail S", harmonics, 1, kMostHarmonics)) harmonics_ = harmonics;
   if (!harmonics_ || pointer_.down) return;
   editor_.set_harmonics(*harmonics_);
   harmonics_.reset();
@@ -246,36 +246,36 @@ std::string CharacterEditor::advice() const {
 }
 
 void CharacterEditor::show_status(const Layout& l) {
-  panel_.fill(l.status, kSide);
-  panel_.text({{l.status.corner.x + 2 * l.gap, l.status.corner.y}, {l.status.size.x - 3 * l.gap, l.status.size.y}},
-              advice(), kInkSoft);
+  panel_->fill(l.status, kSide);
+  panel_->text({{l.status.corner.x + 2 * l.gap, l.status.corner.y}, {l.status.size.x - 3 * l.gap, l.status.size.y}},
+               advice(), kInkSoft);
   const std::optional<PointId> shown = editor_.held() ? editor_.held() : editor_.selected();
   if (!shown || swimming_) return;
   const Vec2 at = l.view.to_scene(point_at(editor_.rig(), *shown));
-  panel_.tag({at.x, at.y - 1.5f * l.unit}, plain_name(*shown), l.canvas);
+  panel_->tag({at.x, at.y - 1.5f * l.unit}, plain_name(*shown), l.canvas);
 }
 
 void CharacterEditor::show_question(const Layout& l) {
   const DisplaySize size = display_.size();
   const Vec2 full{static_cast<float>(size.width), static_cast<float>(size.height)};
-  panel_.fill({{0, 0}, full}, kShade);
+  panel_->fill({{0, 0}, full}, kShade);
   const Vec2 box{9 * l.unit, 3.2f * l.unit};
   const Vec2 corner = full * 0.5f - box * 0.5f;
-  panel_.fill({corner, box}, kSide, 0.25f * l.unit);
-  panel_.text({{corner.x, corner.y + 0.3f * l.unit}, {box.x, l.unit}}, "Save what you have changed?", kInk,
-              Panel::Align::middle);
+  panel_->fill({corner, box}, kSide, 0.25f * l.unit);
+  panel_->text({{corner.x, corner.y + 0.3f * l.unit}, {box.x, l.unit}}, "Save what you have changed?", kInk,
+               Panel::Align::middle);
   const float each = (box.x - 4 * 2 * l.gap) / 3;
   const auto place = [&](int i) {
     return Area{{corner.x + 2 * l.gap + static_cast<float>(i) * (each + 2 * l.gap), corner.y + 1.8f * l.unit},
                 {each, l.unit}};
   };
-  if (panel_.button(place(0), "Save", Panel::Look::main)) {
+  if (panel_->button(place(0), "Save", Panel::Look::main)) {
     asking_ = false;
     save();
     quit_ = !editor_.unsaved();
   }
-  if (panel_.button(place(1), "Do not save")) quit_ = true;
-  if (panel_.button(place(2), "Go on")) asking_ = false;
+  if (panel_->button(place(1), "Do not save")) quit_ = true;
+  if (panel_->button(place(2), "Go on")) asking_ = false;
 }
 
 void CharacterEditor::save() {

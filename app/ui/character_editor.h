@@ -67,7 +67,7 @@ class CharacterEditor {
   RiggedFigure figure_;
   Editor editor_;
   EditorCanvas canvas_;
-  Panel panel_;
+  std::unique_ptr<Panel> panel_ = open_panel();
   PointerQueue pointers_;
   PointerState pointer_;
   Save save_;

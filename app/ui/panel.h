@@ -5,9 +5,11 @@
 // of Display::draw_over. Widgets return what the user did in this frame. Nothing needs hovering, a keyboard or scrolling.
 // Sizes follow `unit`: the height of a button, scene pixels; text has the size that fits it.
 // Font: DejaVu Sans where Debian has it (fonts-dejavu-core), else the one inside Dear ImGui.
-// A GLES 3.0 context must be current in the constructor, begin(), draw() and the destructor.
+// A GLES 3.0 context must be current in open_panel(), begin(), draw() and the destructor.
+// Dear ImGui is linked into libneontetra_panel.so alone (app/panel), which open_panel() loads.
 #pragma once
 #include <initializer_list>
+#include <memory>
 #include <string>
 
 #include "app/character_edit/figure_view.h"
@@ -18,32 +20,27 @@ namespace nt {
 
 class Panel {
  public:
-  Panel();
-  ~Panel();
-  Panel(const Panel&) = delete;
-  Panel& operator=(const Panel&) = delete;
+  virtual ~Panel() = default;
 
-  void begin(int width, int height, float dt_s, const PointerState& pointer, float unit);
-  void end();
-  void draw() const;
+  virtual void begin(int width, int height, float dt_s, const PointerState& pointer, float unit) = 0;
+  virtual void end() = 0;
+  virtual void draw() const = 0;
 
-  void fill(const Area& area, Colour colour, float rounding = 0);
-  void dot(Vec2 at, float diameter, Colour colour, Colour rim);
+  virtual void fill(const Area& area, Colour colour, float rounding = 0) = 0;
+  virtual void dot(Vec2 at, float diameter, Colour colour, Colour rim) = 0;
   enum class Align : uint8_t { left, middle };
-  void text(const Area& area, const std::string& words, Colour colour, Align align = Align::left);
+  virtual void text(const Area& area, const std::string& words, Colour colour, Align align = Align::left) = 0;
   // Words on a small plate at a point, kept inside `within`.
-  void tag(Vec2 at, const std::string& words, const Area& within);
+  virtual void tag(Vec2 at, const std::string& words, const Area& within) = 0;
   enum class Look : uint8_t { plain, on, main, off };  // off: cannot be pressed
-  bool button(const Area& area, const std::string& words, Look look = Look::plain);
+  virtual bool button(const Area& area, const std::string& words, Look look = Look::plain) = 0;
+  // [-] a slider with the words and the value [+]; true when the value has changed.
+  virtual bool number(const Area& area, const char* words, int& value, int least, int most) = 0;
   // Buttons side by side, one of them on; the one that was pressed, or -1.
   int choice(const Area& area, std::initializer_list<const char*> words, int on);
-  // [-] a slider with the words and the value [+]; true when the value has changed.
-  bool number(const Area& area, const char* words, int& value, int least, int most);
-
- private:
-  void build_font(float pixels);
-  float unit_ = 0;
-  bool own_font_ = false;  // DejaVu Sans
 };
+
+// Throws UserError where the module is missing.
+std::unique_ptr<Panel> open_panel();
 
 }  // namespace nt

@@ -10,7 +10,8 @@
 namespace nt {
 namespace {
 
-// A clip of 30 frames: a dark ellipse at `place(frame)` (nowhere when x < 0) on an even bright field with noise.
+// A clip of 30 frames: a dark ellipse at `place(frame)` (nowhere when x < 0) on an even bright field with noise;
+// as spread_small() gives them.
 std::vector<cv::Mat> clip(const std::function<cv::Point(int)>& place) {
   cv::RNG random(7);
   std::vector<cv::Mat> frames;
@@ -19,7 +20,8 @@ std::vector<cv::Mat> clip(const std::function<cv::Point(int)>& place) {
     random.fill(noise, cv::RNG::NORMAL, 200, 4);
     const cv::Point at = place(i);
     if (at.x >= 0) cv::ellipse(noise, at, {40, 8}, 0, 0, 360, cv::Scalar(30), cv::FILLED);
-    frames.push_back(noise);
+    frames.emplace_back();
+    noise.convertTo(frames.back(), CV_32F);
   }
   return frames;
 }

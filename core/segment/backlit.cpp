@@ -40,7 +40,7 @@ bool Backlit::apply(LumaView luma, const BitMask* keep, const BitMask& foregroun
   const Relight relight = light_.update(luma, keep != nullptr);
   relit_ = relight.all != 1.0f;
   if (relit_) scale_pixels(relight.all, plane_);
-  if (relight.kept != 1.0f && keep != nullptr) scale_pixels(relight.kept, *keep, plane);
+  if (relight.kept != 1.0f && keep != nullptr) scale_pixels(relight.kept, relight.rounding, *keep, plane);
   const int strong = settings_.radius > 0 ? settings_.radius : clamp_int(5 * weak_threshold(sigma_) / 2, 20, 90);
   mask_of_difference(luma, estimate(), strong, polarity_, foreground);
   follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(sigma_)), plane);

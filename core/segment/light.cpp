@@ -16,7 +16,7 @@ constexpr int kBinsPerOne = 256;      // of the histogram of factors, which reac
 
 constexpr float kAgree = 0.7f;        // share of the grid about its median ...
 constexpr float kAlike = 0.25f;       // ... that must lie within this share of it: one factor for all
-constexpr float kSettle = 1.0f / 16;  // a frame: of the unrest
+constexpr float kSettle = 1.0f / 16;  // a frame: of the unrest, and of the light without its flicker
 constexpr int kBins = 8 * kBinsPerOne;
 
 using Histogram = std::array<uint16_t, kBins>;
@@ -32,10 +32,11 @@ float quantile(const Histogram& histogram, int total, float share) {
   return (static_cast<float>(bin) - 0.5f + inside) * (1.0f / kBinsPerOne);
 }
 
-std::array<uint8_t, 256> table_of(float factor) {
+std::array<uint8_t, 256> table_of(float factor, float rounding) {
   std::array<uint8_t, 256> table{};
   for (int v = 0; v < 256; ++v)
-    table[static_cast<std::size_t>(v)] = static_cast<uint8_t>(det::min(static_cast<float>(v) * factor + 0.5f, 255.0f));
+    table[static_cast<std::size_t>(v)] =
+        static_cast<uint8_t>(det::min(static_cast<float>(v) * factor + rounding, 255.0f));
   return table;
 }
 
@@ -49,7 +50,7 @@ void Light::start(LumaView luma) {
       per_first_[static_cast<std::size_t>(j * kColumns + i)] = v < kLeastLuma ? 0.0f : 1.0f / static_cast<float>(v);
     }
   }
-  model_ = kept_ = 1.0f;
+  model_ = kept_ = steady_ = 1.0f;
 }
 
 float Light::level(LumaView luma, bool& agreed) {
@@ -91,23 +92,26 @@ Relight Light::update(LumaView luma, bool keeps_pixels) {
   } else {
     model_ += kFollow * (now - model_);
   }
-  // What is kept must stand for the same light as what is learned around it: flicker is no matter of either.
+  // What is kept follows the light as what is learned around it does, not its flicker.
+  steady_ += relight.all != 1.0f ? now - steady_ : kSettle * (now - steady_);
   if (!keeps_pixels) {
-    kept_ = model_;
-  } else if (det::abs(model_ - kept_) > kStep * kept_) {
-    relight.kept = model_ / kept_;
-    kept_ = model_;
+    kept_ = steady_;
+  } else if (det::abs(steady_ - kept_) > kStep * kept_) {
+    constexpr float kRounding[] = {0.125f, 0.625f, 0.375f, 0.875f};
+    relight.kept = steady_ / kept_;
+    relight.rounding = kRounding[steps_++ & 3];
+    kept_ = steady_;
   }
   return relight;
 }
 
 void scale_pixels(float factor, std::span<uint8_t> pixels) {
-  const std::array<uint8_t, 256> table = table_of(factor);
+  const std::array<uint8_t, 256> table = table_of(factor, 0.5f);
   for (uint8_t& v : pixels) v = table[v];
 }
 
-void scale_pixels(float factor, const BitMask& where, ImageView<uint8_t> plane) {
-  const std::array<uint8_t, 256> table = table_of(factor);
+void scale_pixels(float factor, float rounding, const BitMask& where, ImageView<uint8_t> plane) {
+  const std::array<uint8_t, 256> table = table_of(factor, rounding);
   for (int y = 0; y < where.height; ++y) {
     uint8_t* row = plane.row(y);
     for (int i = 0; i < where.words_per_row; ++i) {

@@ -20,7 +20,9 @@ namespace nt {
 
 struct Relight {
   float all = 1.0f;   // to be multiplied on everything that is remembered; 1: nothing to do
-  float kept = 1.0f;  // after that, on the pixels that are kept from being learned
+  float kept = 1.0f;  // after that, on the pixels that are kept from being learned ...
+  float rounding =
+      0.5f;  // ... with this added before it is cut to whole levels: it changes, so that steps do not add up their errors
 };
 
 class Light {
@@ -37,10 +39,13 @@ class Light {
   std::array<float, static_cast<std::size_t>(kColumns) * kRows> per_first_{};  // 1 / first luma
   float unrest_ = 0.0f;
   float model_ = 1.0f, kept_ = 1.0f;  // light that the model, and its kept pixels, stand for
+  float steady_ = 1.0f;               // the light without its flicker
+  int steps_ = 0;                     // of the kept pixels
 };
 
 // Multiplies pixels by a factor, rounded, at most 255; the second form only where bits of `where` are set.
+// `rounding` is added before the fraction is cut off.
 void scale_pixels(float factor, std::span<uint8_t> pixels);
-void scale_pixels(float factor, const BitMask& where, ImageView<uint8_t> plane);
+void scale_pixels(float factor, float rounding, const BitMask& where, ImageView<uint8_t> plane);
 
 }  // namespace nt

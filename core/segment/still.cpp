@@ -78,7 +78,7 @@ bool Still::apply(LumaView luma, const BitMask* keep, const BitMask& foreground)
   const Relight relight = light_.update(luma, keep != nullptr);
   relit_ = relight.all != 1.0f;
   if (relit_) scale_pixels(relight.all, plane_);
-  if (relight.kept != 1.0f && keep != nullptr) scale_pixels(relight.kept, *keep, plane);
+  if (relight.kept != 1.0f && keep != nullptr) scale_pixels(relight.kept, relight.rounding, *keep, plane);
   const int radius =
       settings_.radius > 0 ? settings_.radius : max_int(match_radius(noise_.sigma()), weak_threshold(noise_.sigma()));
   mask_of_difference(luma, estimate(), radius, 0, foreground);

@@ -154,8 +154,8 @@ void Vibe::follow_light(LumaView luma, const BitMask* keep) {
   relit_ = relight.all != 1.0f;
   if (relit_) scale_pixels(relight.all, samples_), scale_pixels(relight.all, plane_);
   if (relight.kept == 1.0f || keep == nullptr) return;
-  for (int k = 0; k < kSamples; ++k) scale_pixels(relight.kept, *keep, sample_plane(k));
-  scale_pixels(relight.kept, *keep, {plane_.data(), width_, height_, stride_});
+  for (int k = 0; k < kSamples; ++k) scale_pixels(relight.kept, relight.rounding, *keep, sample_plane(k));
+  scale_pixels(relight.kept, relight.rounding, *keep, {plane_.data(), width_, height_, stride_});
 }
 
 void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep) {

@@ -44,9 +44,9 @@ TEST(LightFactor, SlowLightIsOnlyPassedOnToKeptPixels) {
     const Relight relight = light.update(ground(level, static_cast<uint64_t>(n)).luma(), true);
     EXPECT_EQ(relight.all, 1.0f) << n;
     kept *= relight.kept;
-    EXPECT_NEAR(kept, level, 0.045f) << n;
+    EXPECT_NEAR(kept, level, 0.035f) << n;
   }
-  EXPECT_NEAR(kept, 1.15f, 0.045f);
+  EXPECT_NEAR(kept, 1.15f, 0.035f);
 }
 
 TEST(LightFactor, WithNothingKeptThereIsNoArrearsLater) {
@@ -82,7 +82,7 @@ TEST(LightFactor, ScaledPixelsAreRoundedAndStayBelow256) {
   Picture plane(70, 2, 100);
   Bits where(70, 2);
   where.paint({60, 1, 70, 2});
-  scale_pixels(0.5f, where.mask(), plane.view());
+  scale_pixels(0.5f, 0.5f, where.mask(), plane.view());
   for (int x = 0; x < 70; ++x) {
     EXPECT_EQ(plane.at(x, 0), 100);
     EXPECT_EQ(plane.at(x, 1), x < 60 ? 100 : 50) << x;

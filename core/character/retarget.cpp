@@ -248,9 +248,21 @@ void Retarget::pose_body(const Motion& m) {
   points_[2] = joint + polar(lengths_.tail_len, bone_angle(m.low_axis_angle, m.l_num, m.tail_angle, low, low + 1));
 }
 
+// A body that bends draws the junctions together on its inner side and apart on its outer one: a fin whose root did so would
+// lose or gain area. Its root keeps its middle and direction, and gets back its length; the body beside it gives way.
+void Retarget::keep_root(const Fin& fin) {
+  Vec2 &top = points_[fin.first], &bottom = points_[fin.first + 1];
+  const float len = distance(top, bottom);
+  if (len <= 0.0f) return;
+  const Vec2 middle = lerp(top, bottom, 0.5f);
+  const Vec2 half = (bottom - top) * (0.5f * distance(rest_[fin.first], rest_[fin.first + 1]) / len);
+  top = middle - half, bottom = middle + half;
+}
+
 // Algorithm 4, lines 2-4, for one fin: its junctions have been moved with the body already.
 void Retarget::pose_fin(int index, float angle_rad) {
   const Fin& fin = fins_[index];
+  keep_root(fin);
   const Vec2 top = points_[fin.first], bottom = points_[fin.first + 1];
   // How far the body has turned where the fin is rooted; the range of the fin turns with it.
   const float turn = det::wrap(angle_of(bottom - top) - angle_of(rest_[fin.first + 1] - rest_[fin.first]));

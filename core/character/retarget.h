@@ -6,14 +6,19 @@
 // head turned to M.dir. The caller may place and zoom the result with `placement`.
 // Steps: body control points from bone lengths and angles (Alg 3) -> moving least squares moves the four junctions ->
 // fin tips (Alg 4) -> Kalman filter per control-point coordinate -> moving least squares moves all vertices.
-// Differs from [F]: only the junctions of the implicit model are deformed; its other vertices are never shown. Algorithm 4
-// gives the drawing's fin the fish's own angle; here the range a fish's fins sweep (kFishFins) is laid over the range this
-// drawing's triangles bear (FinRange, found once), the fish's folded fin on the drawing's folded limit, amplitudes kept
-// where the drawing bears them and shrunk evenly where not. For a drawing is rooted, and at rest opened, otherwise than the
-// fish: the fish's own angle would run into the limit, where [F] section 6.3 calls distortion inevitable and a clamp would
-// hold the fin still. The drawn fin turns about its lower junction, where it meets the body when it folds, not about the upper one:
-// turned about that, it would crush what lies between it and the body. A second pair of fins follows the first: the fish has one. Each fin has kFinSpots more control points, spread over it, that turn with it, so that it turns as a whole and keeps its area. The filter also runs over the centre and the direction,
-// which [F] leaves to its points in the world.
+// Differs from [F]:
+// - Only the junctions of the implicit model are deformed; its other vertices are never shown.
+// - Algorithm 4 gives the drawing's fin the fish's own angle. Here the range a fish's fins sweep (kFishFins) is laid over
+//   the range this drawing's triangles bear (FinRange, found once), the fish's folded fin on the drawing's folded limit,
+//   amplitudes kept where the drawing bears them and shrunk evenly where not. For a drawing is rooted, and at rest opened,
+//   otherwise than the fish: the fish's own angle would run into the limit, where [F] section 6.3 calls distortion
+//   inevitable and a clamp would hold the fin still.
+// - The drawn fin turns about its lower junction, where it meets the body when it folds, not about the upper one: turned
+//   about that, it would crush what lies between it and the body.
+// - Each fin has kFinSpots more control points, spread over it, that turn with it, so that it turns as a whole, and its
+//   junctions keep their distance while the body bends: so it keeps its area.
+// - A second pair of fins follows the first: the fish has one.
+// - The filter also runs over the centre and the direction, which [F] leaves to its points in the world.
 // Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 37).
 #pragma once
 #include <span>
@@ -112,6 +117,7 @@ class Retarget {
   bool fin_fits(int index, float open);
   void turn_fin(const Fin& fin, float open, float body_turn);
   void pose_body(const Motion& motion);
+  void keep_root(const Fin& fin);
   void pose_fin(int index, float motion_open);
   void smooth(Frame& frame, float dt_s);
   void place(const Frame& frame, const Placement& placement);

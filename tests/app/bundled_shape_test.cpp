@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bundled flat characters over the tank's `turns`: no triangle turns over, fins keep their area within a tenth.
+// The bundled characters over the tank's `turns`: no triangle of a flat one turns over, all fins keep their area within a
+// tenth.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -10,17 +11,15 @@
 namespace nt {
 namespace {
 
-constexpr float kFinArea =
-    0.101f;  // reached: the cartoon fish's 0.1004, where the filmed tail bends into one of its lobes
-
 TEST(BundledShapes, SurviveTheTurns) {
   CaptureOptions options;
   options.camera = parse_camera_spec("sim:scene=turns,seed=1,size=480x272");
   options.background = parse_background("vibe");
   Session session(options);
   std::vector<std::string> paths;
-  for (const std::string name : {"carp", "cartoon_fish", "mermaid", "flower"})
-    paths.push_back(NEONTETRA_ASSETS "/characters/" + name + ".png");
+  for (const std::string name :
+       {"carp.png", "cartoon_fish.png", "mermaid.png", "flower.png", "whale.glb", "lobster.glb"})
+    paths.push_back(NEONTETRA_ASSETS "/characters/" + name);
   const Wardrobe wardrobe(paths, {});
   std::vector<std::unique_ptr<Actor>> actors;
   for (std::size_t i = 0; i < wardrobe.size(); ++i) actors.push_back(std::make_unique<Actor>(wardrobe, i));
@@ -34,8 +33,9 @@ TEST(BundledShapes, SurviveTheTurns) {
       if (!sighting.seen) continue;
       actors[i]->pose(1, 1 / 30.0f, pane);
       const Distortion d = actors[i]->retarget().distortion();
-      EXPECT_EQ(d.inverted, 0) << paths[i] << ", frame " << n;
-      for (const float area : d.fin_area) EXPECT_NEAR(area, 1, kFinArea) << paths[i] << ", frame " << n;
+      const bool flat = paths[i].ends_with(".png");
+      EXPECT_EQ(flat ? d.inverted : 0, 0) << paths[i] << ", frame " << n;
+      for (const float area : d.fin_area) EXPECT_NEAR(area, 1, 0.1f) << paths[i] << ", frame " << n;
     }
   }
   EXPECT_GT(poses, 500);

@@ -274,6 +274,19 @@ TEST(Retarget, FinsKeepTheirAreaAndNoTriangleTurnsOverWhileBothMove) {
   }
 }
 
+TEST(Retarget, AFinsRootKeepsItsLengthWhileTheBodyBends) {
+  Stage stage;
+  const Motion rest = stage->rest_motion();
+  stage->pose(rest, 0, {});
+  const ControlPoints straight = stage->control_points();
+  stage->pose(bent(rest, [](float s) { return 0.7f * s; }), 0, {});
+  const ControlPoints round = stage->control_points();
+  for (const FinIndex fin : {kLeftFin, kRightFin}) {
+    const float len = length(straight.fins[fin].top - straight.fins[fin].bottom);
+    EXPECT_NEAR(length(round.fins[fin].top - round.fins[fin].bottom), len, 1e-4f * len);
+  }
+}
+
 TEST(Retarget, EveryKindOfDeformationKeepsTheDrawingWhole) {
   for (const MlsKind kind : {MlsKind::rigid, MlsKind::similarity, MlsKind::affine}) {
     RetargetSettings settings = Stage::unsmoothed();

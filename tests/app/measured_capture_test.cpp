@@ -128,8 +128,7 @@ TEST(MeasuredCapture, AtTheCamerasPaceTheLatencyIsReported) {
 }
 
 TEST(MeasuredCapture, MemoryStaysUnderFortyMegabytesAndIsFlat) {
-  const Json full =
-      Json::parse(neontetra("capture -c sim:frames=150 --background vibe --csv /dev/null --json -").out)["memory"];
+  const Json full = Json::parse(neontetra("capture -c sim --frames 150 --csv /dev/null --json -").out)["memory"];
   EXPECT_LE(full["process_peak_bytes"], 40'000'000);
   const auto end_of = [](const char* frames) {
     const Json memory = Json::parse(neontetra(std::string("capture -c sim:scene=long,size=320x180,frames=") + frames +

@@ -158,7 +158,7 @@ void Vibe::follow_light(LumaView luma, const BitMask* keep) {
   scale_pixels(relight.kept, relight.rounding, *keep, {plane_.data(), width_, height_, stride_});
 }
 
-void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep) {
+void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep, bool neighbours) {
   uint8_t tail[64];
   const uint8_t* own_choice = chosen_.data() + random_.below(kTable);
   const uint8_t* neighbour_choice = chosen_.data() + random_.below(kTable);
@@ -174,7 +174,7 @@ void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const ui
     if (x + dx < 0 || x + dx + 64 > stride_) dx = 0;
     if (frozen == ~uint64_t{0}) return;
     refresh_segment(at, own_choice + x, frozen, own + x);
-    refresh_segment(at, neighbour_choice + x, frozen, other + x + dx);
+    if (neighbours) refresh_segment(at, neighbour_choice + x, frozen, other + x + dx);
   });
 }
 
@@ -199,7 +199,8 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
     for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
       words[x >> 6] = classify_segment(at, samples + x, plane_stride, match) & valid_bits(x, width_);
     });
-    for (int round = 0; round < rounds; ++round) update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr);
+    for (int round = 0; round < rounds; ++round)
+      update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr, round == 0);
   }
   follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
                     {plane_.data(), width_, height_, stride_});

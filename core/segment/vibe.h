@@ -25,7 +25,8 @@ class Vibe final : public Background {
   static constexpr int kSamples = 20;
   static constexpr int kMinMatches = 2;
   static constexpr int kSubsampling = 16;
-  // One frame says little of a surface that moves: at first each frame is learned as if it were several.
+  // One frame says little of a surface that moves: at first each frame is learned as if it were several. Only by its own
+  // pixel: learned from its neighbours as well, what is beside a thin tail would soon know the tail.
   static constexpr int kEagerFrames = 60, kEagerRounds = 4;
   static constexpr int kGuessFrames = 20;  // a beat of the tail
 
@@ -51,7 +52,7 @@ class Vibe final : public Background {
   void guess(const BitMask& unknown);
   void settle_guess(LumaView luma);
   void follow_light(LumaView luma, const BitMask* keep);
-  void update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep);
+  void update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep, bool neighbours);
   uint8_t* sample_row(int k, int y) const {
     return samples_.data() + (static_cast<std::ptrdiff_t>(k) * height_ + y) * stride_;
   }

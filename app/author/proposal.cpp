@@ -21,6 +21,8 @@ constexpr float kUnsure = 0.5f;       // a landmark group below this is named
 constexpr float kOffMiddle = 0.2f;    // an axis point below this is named
 constexpr float kMostWinding = 1.8f;  // radians; the tank's fish in a hard turn has 1.5
 constexpr float kEndsAgree = 0.2f;    // of the length
+constexpr double kFinsAhead = 0.55;   // along the axis: pectoral fins and arms are rooted ahead of here ...
+constexpr double kFinsBehind = 0.4;   // ... or head and tail may be the wrong way round: what is left of being sure
 constexpr float kLeastCentre = 0.2f,
                 kMostCentre = 0.6f;  // along the axis: a curled figure's barycentre may lie anywhere
 
@@ -124,17 +126,19 @@ void take_appendages(const Appendages& parts, Proposal& out) {
   p.r_fin = r.tip, p.jun_tr = r.top, p.jun_br = r.bottom;
 }
 
+std::size_t nearest_station(const Axis& axis, Vec2 point) {
+  std::size_t best = 0;
+  for (std::size_t j = 1; j < axis.points.size(); ++j) {
+    if (length_sq(axis.points[j] - point) < length_sq(axis.points[best] - point)) best = j;
+  }
+  return best;
+}
+
 // In the order of a character file: centre, head, tail, upper axis, lower axis, fins.
 std::vector<float> confidences_of(const Proposal& p, const cv::Mat& mask, const Axis& axis, const StationValues& body,
                                   const Appendages& parts) {
   const StationValues middle = centredness(mask, axis, body);
-  const auto at = [&](Vec2 point) {
-    std::size_t best = 0;
-    for (std::size_t j = 1; j < axis.points.size(); ++j) {
-      if (length_sq(axis.points[j] - point) < length_sq(axis.points[best] - point)) best = j;
-    }
-    return middle[best];
-  };
+  const auto at = [&](Vec2 point) { return middle[nearest_station(axis, point)]; };
   std::vector<float> out{at(p.pose.centre), p.pose.confidence.head, p.pose.confidence.tail};
   for (int i = 0; i < p.pose.u_num; ++i) out.push_back(at(p.pose.up_axis[i]));
   for (int i = 0; i < p.pose.l_num; ++i) out.push_back(at(p.pose.low_axis[i]));
@@ -144,6 +148,16 @@ std::vector<float> confidences_of(const Proposal& p, const cv::Mat& mask, const 
     for (int k = 0; k < 3; ++k) out.push_back(p.fins[i].present ? c : 0.0f);
   }
   return out;
+}
+
+bool rooted_behind(const Proposal& p, const Axis& axis) {
+  double along = 0;
+  for (const FinIndex i : {kLeftFin, kRightFin}) {
+    if (!p.fins[i].present) return false;
+    const Vec2 root = lerp(p.fins[i].top, p.fins[i].bottom, 0.5f);
+    along += 0.5 * static_cast<double>(nearest_station(axis, root)) / static_cast<double>(axis.points.size() - 1);
+  }
+  return along > kFinsAhead;
 }
 
 std::string percent(float v) {
@@ -203,8 +217,8 @@ Proposal propose_landmarks(const std::string& name, const cv::Mat& mask, const c
   if (none || parts[kSecondLeftFin].points.present) take_appendages(parts, out);
   out.has_tail_fin = ends.has_tail_fin;
   const bool known = !ends.path.points.empty();
-  const double sure = known ? ends.head_confidence * (0.25 + 0.75 * ends.ends_confidence)
-                            : static_cast<double>(out.pose.confidence.head);
+  double sure = known ? ends.head_confidence * ends.ends_confidence : static_cast<double>(out.pose.confidence.head);
+  if (!told && rooted_behind(out, axis)) sure *= kFinsBehind;
   out.pose.confidence.head = out.pose.confidence.tail = static_cast<float>(sure);
   out.confidences = confidences_of(out, mask, axis, body, parts);
   out.pose.confidence.centre = out.confidences[0];

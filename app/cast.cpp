@@ -44,10 +44,19 @@ void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& c
           "grow and shrink, affine lets them shear too (default: as the character's file says)")
       ->type_name("rigid|similarity|affine")
       ->check(CLI::IsMember({"rigid", "similarity", "affine"}));
+  const std::map<std::string, Deformer> deformers = {{"mls", Deformer::mls}, {"lattice", Deformer::lattice}};
+  command
+      .add_option_function<std::string>(
+          "--deformer", [&options, deformers](const std::string& name) { options.deformer = deformers.at(name); },
+          "mls: each vertex follows the control points; lattice: a 3D character keeps its volume and its bones' "
+          "lengths "
+          "(default: lattice where the file has one)")
+      ->type_name("mls|lattice")
+      ->check(CLI::IsMember({"mls", "lattice"}));
 }
 
 Cast::Cast(const CastOptions& options, Session& session)
-    : wardrobe_(options.characters, options.mls),
+    : wardrobe_(options.characters, options.mls, options.deformer),
       school_(static_cast<std::size_t>(options.school)),
       delay_frames_(delay_frames(session.info().fps)) {
   const auto fish = static_cast<std::size_t>(session.capture().fish_count());

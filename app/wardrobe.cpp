@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/author/character_lattice.h"
 #include "app/author/mesh_character.h"
 #include "app/author/mesh_file.h"
 #include "app/author/picture_character.h"
@@ -21,6 +22,18 @@ bool is_character_file(const std::string& path) {
   return std::equal(std::begin(magic), std::end(magic), kCharacterMagic);
 }
 
+bool has_swimmers_lattice(const Character& c) {
+  return c.lattice.present() && c.lattice.drive == LatticeDrive::landmarks;
+}
+
+LoadedCharacter with_lattice(LoadedCharacter file, const std::string& path) {
+  const LatticeAsset lattice = fish_lattice(file.character(), {kFishLatticeVertices, LatticeForm::arap});
+  std::fprintf(stderr, "%s: %s\n", path.c_str(), describe(lattice).c_str());
+  Character character = file.character();
+  character.lattice = lattice.view();
+  return LoadedCharacter(character_bytes(character), path, Limits{});
+}
+
 }  // namespace
 
 LoadedCharacter load_character(const std::string& path) {
@@ -31,10 +44,19 @@ LoadedCharacter load_character(const std::string& path) {
   return LoadedCharacter(authored.bytes, path, Limits{});
 }
 
-Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls) {
+Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls,
+                   std::optional<Deformer> deformer) {
+  bool any_lattice = false;
   for (const std::string& path : paths) {
     Costume costume{path, load_character(path), {}, nullptr};
+    if (deformer == Deformer::lattice && costume.file.character().solid() &&
+        !has_swimmers_lattice(costume.file.character())) {
+      costume.file = with_lattice(std::move(costume.file), path);
+    }
     RetargetSettings settings;
+    const bool lattice = deformer != Deformer::mls && has_swimmers_lattice(costume.file.character());
+    settings.deformer = lattice ? Deformer::lattice : Deformer::mls;
+    any_lattice = any_lattice || lattice;
     settings.mls = mls.value_or(costume.file.character().deformer);
     Arena measuring;
     (void)Retarget::create(measuring, costume.file.character(), settings);
@@ -44,6 +66,9 @@ Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind>
     if (!made.ok()) throw UserError(path + ": " + made.status().message);
     costume.prepared = made.value();
     costumes_.push_back(std::move(costume));
+  }
+  if (deformer == Deformer::lattice && !any_lattice) {
+    throw UserError("--deformer lattice is for 3D characters, and there is none; leave it out", 2);
   }
 }
 

@@ -19,8 +19,10 @@ LoadedCharacter load_character(const std::string& path);
 
 class Wardrobe {
  public:
-  // Without `mls` each character is deformed as its file says.
-  Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls);
+  // Without `mls` each character is deformed as its file says. Without `deformer` those are moved by a lattice whose
+  // file has one for a swimmer; with Deformer::lattice every 3D one is, and gets one on the spot where it has none.
+  Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls,
+           std::optional<Deformer> deformer = std::nullopt);
   std::size_t size() const { return costumes_.size(); }
   const Character& character(std::size_t index) const { return costumes_[index].file.character(); }
   const std::string& path(std::size_t index) const { return costumes_[index].path; }

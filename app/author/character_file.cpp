@@ -45,8 +45,38 @@ uint32_t flags_of(const Character& character) {
 uint64_t append(std::vector<std::byte>& bytes, const void* data, std::size_t size) {
   const std::size_t offset = align_up(bytes.size());
   bytes.resize(offset + size);
-  std::memcpy(bytes.data() + offset, data, size);
+  if (size > 0) std::memcpy(bytes.data() + offset, data, size);
   return offset;
+}
+
+template <class T>
+uint64_t append(std::vector<std::byte>& bytes, std::span<const T> data) {
+  return append(bytes, data.data(), data.size_bytes());
+}
+
+// The lattice's arrays behind its header; returns where the header is.
+uint64_t append_lattice(std::vector<std::byte>& bytes, const CharacterLattice& l) {
+  const LatticeView& v = l.view;
+  const SkeletonView& s = v.skeleton;
+  const auto count = [](std::size_t n) { return static_cast<uint32_t>(n); };
+  LatticeHeader h{};
+  h.form = static_cast<uint32_t>(v.form), h.drive = static_cast<uint32_t>(l.drive);
+  h.vertex_count = count(v.vertices.size()), h.tetrahedron_count = count(v.tetrahedra.size() / 4);
+  h.neighbour_count = count(v.neighbours.size()), h.row_count = count(v.rows.size());
+  h.marker_count = count(v.markers.size()), h.joint_count = count(s.joints()), h.chain_count = count(s.chain.size());
+  h.block_count = count(l.embedding.blocks()), h.name_bytes = count(l.names.size());
+  const uint64_t at = append(bytes, &h, sizeof h);
+  h.vertices_offset = append(bytes, v.vertices), h.tetrahedra_offset = append(bytes, v.tetrahedra);
+  h.neighbour_start_offset = append(bytes, v.neighbour_start), h.neighbours_offset = append(bytes, v.neighbours);
+  h.weights_offset = append(bytes, v.weights), h.column_start_offset = append(bytes, v.column_start);
+  h.rows_offset = append(bytes, v.rows), h.markers_offset = append(bytes, v.markers);
+  h.joint_vertex_offset = append(bytes, s.vertex), h.joint_parent_offset = append(bytes, s.parent);
+  h.chain_start_offset = append(bytes, s.chain_start), h.chain_offset = append(bytes, s.chain);
+  h.limits_offset = append(bytes, s.limits), h.coordinates_offset = append(bytes, l.embedding.coordinates);
+  h.block_tetrahedra_offset = append(bytes, l.embedding.tetrahedron), h.slots_offset = append(bytes, l.slots);
+  h.names_offset = append(bytes, l.names);
+  std::memcpy(bytes.data() + at, &h, sizeof h);
+  return at;
 }
 
 }  // namespace
@@ -82,6 +112,7 @@ std::vector<std::byte> character_bytes(const Character& character) {
   h.texcoords_offset = append(bytes, character.texcoords.data(), character.texcoords.size_bytes());
   h.triangles_offset = append(bytes, character.triangles.data(), character.triangles.size_bytes());
   const std::size_t row = std::size_t{4} * h.texture_width;
+  if (character.lattice.present()) h.lattice_offset = append_lattice(bytes, character.lattice);
   h.texture_offset = align_up(bytes.size());
   bytes.resize(h.texture_offset + row * h.texture_height);
   for (std::size_t y = 0; y < h.texture_height; ++y) {

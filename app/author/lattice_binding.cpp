@@ -7,6 +7,19 @@
 #include <numeric>
 
 namespace nt {
+namespace {
+
+float mean_edge(std::span<const Vec3> x, std::span<const uint16_t> tetrahedra) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < tetrahedra.size(); t += 4) {
+    for (std::size_t k = 1; k < 4; ++k) {
+      sum += static_cast<double>(length(x[tetrahedra[t + k]] - x[tetrahedra[t + k - 1]]));
+    }
+  }
+  return std::max(static_cast<float>(sum / (0.75 * static_cast<double>(tetrahedra.size()))), 1e-9f);
+}
+
+}  // namespace
 
 std::array<float, 4> barycentric(const std::array<Vec3, 4>& c, Vec3 p) {
   const float whole = volume6(c[0], c[1], c[2], c[3]);
@@ -21,10 +34,11 @@ float least_weight(const std::array<Vec3, 4>& corner, Vec3 p) {
   return *std::min_element(w.begin(), w.end());
 }
 
-Binder::Binder(const LatticeData& lattice, float spacing) : lattice_(lattice), bin_(spacing) {
-  Vec3 high = lattice.vertices[0];
+Binder::Binder(std::span<const Vec3> vertices, std::span<const uint16_t> tetrahedra, float spacing)
+    : vertices_(vertices), tetrahedra_(tetrahedra), bin_(spacing > 0.0f ? spacing : mean_edge(vertices, tetrahedra)) {
+  Vec3 high = vertices[0];
   low_ = high;
-  for (const Vec3 p : lattice.vertices) {
+  for (const Vec3 p : vertices) {
     low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
@@ -32,8 +46,8 @@ Binder::Binder(const LatticeData& lattice, float spacing) : lattice_(lattice), b
            static_cast<int>((high.z - low_.z) / bin_) + 1};
   bins_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
                static_cast<std::size_t>(size_[2]));
-  for (std::size_t t = 0; t < lattice.tetrahedra.size() / 4; ++t) {
-    std::array<int, 3> from = bin_of(lattice.vertices[lattice.tetrahedra[4 * t]]), to = from;
+  for (std::size_t t = 0; t < tetrahedra.size() / 4; ++t) {
+    std::array<int, 3> from = bin_of(vertices[tetrahedra[4 * t]]), to = from;
     for (const Vec3 p : corners(t)) {
       const auto b = bin_of(p);
       for (std::size_t a = 0; a < 3; ++a) from[a] = std::min(from[a], b[a]), to[a] = std::max(to[a], b[a]);
@@ -59,9 +73,8 @@ std::array<int, 3> Binder::bin_of(Vec3 p) const {
 }
 
 std::array<Vec3, 4> Binder::corners(std::size_t t) const {
-  const auto& l = lattice_;
-  return {l.vertices[l.tetrahedra[4 * t]], l.vertices[l.tetrahedra[4 * t + 1]], l.vertices[l.tetrahedra[4 * t + 2]],
-          l.vertices[l.tetrahedra[4 * t + 3]]};
+  const uint16_t* v = &tetrahedra_[4 * t];
+  return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]], vertices_[v[3]]};
 }
 
 // Rings of bins around p, one further than the first in which there is anything.
@@ -87,6 +100,16 @@ Binding Binder::bind(Vec3 p) const {
     if (most > -std::numeric_limits<float>::infinity()) last = std::min(last, ring + 1);
   }
   return best;
+}
+
+MarkerBinding Binder::marker(Vec3 p) const {
+  const Binding b = bind(p);
+  MarkerBinding out;
+  for (std::size_t k = 0; k < 4; ++k) {
+    out.vertex[k] = tetrahedra_[4u * b.tetrahedron + k];
+    out.weight[k] = b.weight[k];
+  }
+  return out;
 }
 
 EmbeddingData embed_mesh(const std::vector<Vec3>& points, const Binder& binder, int& outside) {

@@ -20,13 +20,17 @@ float least_weight(const std::array<Vec3, 4>& corner, Vec3 p);
 
 class Binder {
  public:
-  Binder(const LatticeData& lattice, float spacing);
+  // The tetrahedra must outlive it. Without `spacing` it is the mean edge.
+  Binder(std::span<const Vec3> vertices, std::span<const uint16_t> tetrahedra, float spacing = 0.0f);
   Binding bind(Vec3 p) const;
+  // As a marker of the lattice.
+  MarkerBinding marker(Vec3 p) const;
 
  private:
   std::array<int, 3> bin_of(Vec3 p) const;
   std::array<Vec3, 4> corners(std::size_t tet) const;
-  const LatticeData& lattice_;
+  std::span<const Vec3> vertices_;
+  std::span<const uint16_t> tetrahedra_;
   Vec3 low_;
   float bin_ = 1.0f;
   std::array<int, 3> size_{};

@@ -257,16 +257,12 @@ BuiltLattice build_lattice(const TriangleMesh& source, const SkeletonSpec& skele
     const uint16_t* v = &out.data.tetrahedra[t];
     out.flattest = std::min(out.flattest, quality(out.data.vertices, Tet{v[0], v[1], v[2], v[3]}));
   }
-  const Binder binder(out.data, nodes.spacing);
+  const Binder binder(out.data.vertices, out.data.tetrahedra, nodes.spacing);
   for (const MarkerSpec& m : markers) {
-    const Binding b = binder.bind(m.position);
-    MarkerBinding marker;
-    for (std::size_t k = 0; k < 4; ++k) {
-      marker.vertex[k] = out.data.tetrahedra[4u * b.tetrahedron + k];
-      marker.weight[k] = b.weight[k];
-      out.worst_marker_weight = std::min(out.worst_marker_weight, b.weight[k]);
+    out.data.markers.push_back(binder.marker(m.position));
+    for (const float w : out.data.markers.back().weight) {
+      out.worst_marker_weight = std::min(out.worst_marker_weight, w);
     }
-    out.data.markers.push_back(marker);
   }
   out.embedding = embed_mesh(mesh.positions, binder, out.outside);
   return out;

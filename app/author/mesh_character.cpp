@@ -131,6 +131,11 @@ struct TopView {
   }
 };
 
+FigureFromFile figure_from_file(const MeshAxes& axes, const TopView& view) {
+  const float s = view.scale;
+  return {axes.right * s, axes.forward * -s, axes.up * s, view({})};
+}
+
 TopView top_view(const std::string& path, const SourceMesh& mesh) {
   TopView v;
   v.least = v.most = mesh.positions.front();
@@ -215,6 +220,7 @@ AuthoredCharacter author_mesh(const std::string& path, const MeshOptions& option
   character.texture = picture_of(mesh.texture);
   AuthoredCharacter out;
   out.bytes = character_bytes(character);
+  out.figure_from_file = figure_from_file(mesh.axes, view);
   out.report.vertices = static_cast<int>(vertices.size());
   out.report.triangles = static_cast<int>(mesh.triangles.size() / 3);
   out.report.texture_width = mesh.texture.cols, out.report.texture_height = mesh.texture.rows;

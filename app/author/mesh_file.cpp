@@ -253,7 +253,8 @@ SourceMesh Reader::read() {
   walk(*scene_->mRootNode, aiMatrix4x4());
   if (helpers_ > 0) out_.notes.push_back(std::to_string(helpers_) + " helper parts (helper*, joint*) were left out");
   if (soup_.material_of.empty()) throw UserError(path_ + ": there are no triangles in this mesh");
-  turn_to(soup_.corners, find_axes(soup_.corners, told_));
+  out_.axes = find_axes(soup_.corners, told_);
+  turn_to(soup_.corners, out_.axes);
   const bool textured = std::any_of(soup_.materials.begin(), soup_.materials.end(),
                                     [](const SoupMaterial& m) { return !m.texture.empty(); });
   if (soup_.has_colours && !textured) {

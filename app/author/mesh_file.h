@@ -24,6 +24,7 @@ struct SourceMesh {
   std::vector<Vec2> texcoords;
   std::vector<uint32_t> triangles;
   cv::Mat texture;  // 8UC4 RGBA
+  MeshAxes axes;    // how it was laid down
   int parts = 0;    // of the file, helpers left out
   std::vector<std::string> notes;
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/author/proposal.h"
+#include "core/base/vec3.h"
 
 namespace nt {
 
@@ -39,9 +40,17 @@ struct PictureReport {
   std::vector<std::string> notes;  // one line each, for the user: "left fin not seen", ...
 };
 
+// Where a point of a mesh file lies in the character's figure: pixels of the top view and the height, both in one unit.
+struct FigureFromFile {
+  Vec3 x, y, z;  // rows of a turn and a scale
+  Vec3 shift;
+  Vec3 operator()(Vec3 p) const { return Vec3{dot(x, p), dot(y, p), dot(z, p)} + shift; }
+};
+
 struct AuthoredCharacter {
   std::vector<std::byte> bytes;
   PictureReport report;
+  FigureFromFile figure_from_file;  // of a mesh
 };
 
 AuthoredCharacter author_picture(const std::string& path, const PictureOptions& options);

@@ -13,6 +13,7 @@
 #include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/commands/character_corrections.h"
+#include "app/commands/lattice_options.h"
 #include "app/text_file.h"
 #include "platform/camera.h"
 
@@ -24,6 +25,13 @@ struct Options {
   std::string head, up;
   std::optional<int> vertices;
   CorrectionOptions correct;
+  LatticeRequest lattice;
+};
+
+// A character before it is corrected, and where its mesh lies in its figure.
+struct Proposed {
+  LoadedCharacter file;
+  std::optional<FigureFromFile> figure_from_file;
 };
 
 std::string found(const PictureReport& report) {
@@ -54,7 +62,7 @@ AuthoredCharacter author(const Options& options, const Corrections& corrections)
     return author_picture(options.input, picture);
   }
   MeshOptions mesh = with_numbers(MeshOptions{}, corrections);
-  mesh.vertices = options.vertices.value_or(0);
+  mesh.vertices = options.lattice.wanted ? 0 : options.vertices.value_or(0);
   if (!options.head.empty()) mesh.told.head = parse_axis("--head", options.head);
   if (!options.up.empty()) mesh.told.up = parse_axis("--up", options.up);
   return author_mesh(options.input, mesh);
@@ -63,12 +71,18 @@ AuthoredCharacter author(const Options& options, const Corrections& corrections)
 // Where the character goes: --out, or the character file itself that was named. "" for a mere --list.
 std::string output_of(const Options& options) {
   if (!options.out.empty()) return options.out;
-  const bool changes = options.correct.edit || !options.correct.set.empty() || !options.correct.file.empty();
+  const bool changes =
+      options.correct.edit || !options.correct.set.empty() || !options.correct.file.empty() || options.lattice.wanted;
   return is_character(options.input) && changes ? options.input : "";
 }
 
 void check_options(const Options& options, const std::string& out) {
-  if (is_character(options.input) && (!options.head.empty() || !options.up.empty() || options.vertices))
+  if (options.lattice.by_markers() && !options.lattice.wanted)
+    throw UserError("character: --skeleton and --markers are a lattice's; add --lattice", 2);
+  if (options.lattice.wanted && options.correct.edit)
+    throw UserError("character: --edit first, then --lattice: it is made for the corrected points", 2);
+  const bool vertices = options.vertices && !options.lattice.wanted;
+  if (is_character(options.input) && (!options.head.empty() || !options.up.empty() || vertices))
     throw UserError(
         "character: --head, --up and --vertices are for pictures and meshes; say --set head_end=left or X,Y", 2);
   if (out.empty() && !options.correct.list && options.preview.empty())
@@ -76,28 +90,51 @@ void check_options(const Options& options, const std::string& out) {
   if (!out.empty() && !is_character(out)) throw UserError("character: --out must end in .ntchar, not '" + out + "'", 2);
   std::vector<std::string> inputs;
   if (!is_character(options.input)) inputs.push_back(options.input);
+  inputs.insert(inputs.end(), {options.lattice.skeleton, options.lattice.markers});
   check_outputs(inputs, {out, options.preview});
 }
 
 // What the input holds before it is corrected; what was found in it is said.
-LoadedCharacter proposal_of(const Options& options, const std::string& out, const Corrections& corrections) {
-  if (is_character(options.input)) return LoadedCharacter(options.input, Limits{});
+Proposed proposal_of(const Options& options, const std::string& out, const Corrections& corrections) {
+  if (is_character(options.input)) return {LoadedCharacter(options.input, Limits{}), {}};
   const AuthoredCharacter authored = author(options, corrections);
   const std::string& name = out.empty() ? options.input : out;
   std::fputs((name + ": " + found(authored.report)).c_str(), options.correct.list ? stderr : stdout);
-  return LoadedCharacter(authored.bytes, name, Limits{});
+  return {LoadedCharacter(authored.bytes, name, Limits{}), authored.figure_from_file};
+}
+
+// The lattice that is asked for, or a swimmer's that the input had: it is made anew for the corrected points.
+std::optional<LatticeAsset> lattice_of(const Options& options, const Proposed& proposed, const Character& corrected) {
+  LatticeRequest request = options.lattice;
+  request.vertices = options.vertices;
+  const CharacterLattice& had = proposed.file.character().lattice;
+  if (!request.wanted && had.present() && had.drive == LatticeDrive::markers) {
+    std::fprintf(stderr, "neontetra: the lattice is left out: make it again from the mesh with --lattice\n");
+  }
+  if (!request.wanted && had.present() && had.drive == LatticeDrive::landmarks) {
+    request.wanted = true;
+    request.vertices = static_cast<int>(had.view.vertices.size());
+  }
+  if (!request.wanted) return std::nullopt;
+  const FigureFromFile* place = proposed.figure_from_file ? &*proposed.figure_from_file : nullptr;
+  std::optional<LatticeAsset> asset(lattice_for(corrected, request, options.input, place));
+  std::fprintf(options.correct.list ? stderr : stdout, "%s\n", describe(*asset).c_str());
+  return asset;
 }
 
 void make_character(const Options& options) {
   const std::string out = output_of(options);
   check_options(options, out);
   const Corrections corrections = corrections_for(options.correct, out.empty() ? options.input : out);
-  const LoadedCharacter proposal = proposal_of(options, out, corrections);
-  const RiggedFigure figure(proposal.character());
+  const Proposed proposal = proposal_of(options, out, corrections);
+  const RiggedFigure figure(proposal.file.character());
   const Rig rig = corrected(figure.found_for(corrections), corrections);
-  const RiggedCharacter made = figure.with(rig);
+  RiggedCharacter made = figure.with(rig);
   if (!options.preview.empty()) write_preview(options.preview, made.character);
   if (options.correct.list) write_text("-", list_of_points(rig, options.correct.json));
+  std::optional<LatticeAsset> lattice;
+  if (!out.empty()) lattice = lattice_of(options, proposal, made.character);
+  if (lattice) made.character.lattice = lattice->view();
   const bool fresh = !is_character(options.input) || !options.correct.set.empty();
   if (!out.empty() && (fresh || !options.correct.edit)) save_character(out, made.character, corrections);
   if (options.correct.edit) edit_character(out, made.character, corrections, options.correct);
@@ -123,10 +160,12 @@ void add_character(CLI::App& app, Action& action) {
       ->type_name("AXIS");
   command
       ->add_option("--vertices", options->vertices,
-                   "of the triangles (default 2500 for a picture; a mesh keeps its own, at most 8192)")
+                   "of the triangles (default 2500 for a picture; a mesh keeps its own, at most 8192); with "
+                   "--lattice of the lattice (default 450)")
       ->type_name("N")
       ->check(CLI::Range(100, 8000));
   add_correction_options(*command, options->correct);
+  add_lattice_options(*command, options->lattice);
   command->add_option("--preview", options->preview, "the picture with mesh and control points")->type_name("FILE.png");
   command->footer(
       "Example: neontetra character carp.png --out carp.ntchar --preview carp-check.png\n"

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "app/author/character_file.h"
 #include "app/author/skeleton_file.h"
 #include "app/author/triangle_mesh.h"
 #include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/report.h"
 #include "app/export/video_writer.h"
+#include "app/mocap/marker_choice.h"
 #include "app/mocap/marker_puppet.h"
 #include "app/mocap/mesh_view.h"
 #include "app/progress.h"
@@ -25,9 +28,10 @@ namespace {
 constexpr int kWidth = 640, kHeight = 640;
 
 struct Options {
-  std::string file, mesh, skeleton, only, axes, out, csv;
+  std::string file, mesh, skeleton, character, out, csv;
+  MarkerChoice choice;
   int vertices = 600, iterations = 10;
-  int64_t frame = 0, frames = -1;
+  int64_t frames = -1;
   float bone_weight = LatticeSettings{}.w_d;
   std::string embedding = "phong";
   bool stacked = false, json = false;
@@ -43,70 +47,32 @@ struct Summary {
   int64_t frames_with_inverted = 0;
 };
 
-// The markers whose names begin with one of the words of --only, separated by commas; all where it is empty.
-std::vector<std::size_t> chosen_markers(const MarkerFile& file, const std::string& only) {
-  std::vector<std::size_t> out;
-  for (std::size_t m = 0; m < file.markers(); ++m) {
-    bool wanted = only.empty();
-    for (std::size_t from = 0; from < only.size();) {
-      const std::size_t to = std::min(only.find(',', from), only.size());
-      const std::string word = only.substr(from, to - from);
-      wanted = wanted || (!word.empty() && file.names[m].rfind(word, 0) == 0);
-      from = to + 1;
-    }
-    if (wanted) out.push_back(m);
-  }
-  if (out.empty()) {
-    throw UserError("no marker's name begins with --only '" + only + "'; the first is '" + file.names[0] + "'", 2);
-  }
-  return out;
-}
-
-float diagonal_of(const std::vector<Vec3>& points) {
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return length(high - low);
-}
-
 class Player {
  public:
-  Player(const Options& options, const TriangleMesh& mesh, const SkeletonSpec& skeleton, const MarkerFile& file)
-      : options_(options), file_(file), diagonal_(diagonal_of(mesh.positions)) {
-    PuppetOptions puppet;
-    puppet.lattice.vertices = options.vertices;
-    puppet.lattice.form = options.stacked ? LatticeForm::stacked : LatticeForm::arap;
-    puppet.solver.max_iterations = options.iterations;
-    puppet.solver.w_d = options.bone_weight;
-    if (!options.axes.empty()) puppet.turns = {parse_axes(options.axes)};
-    puppet.phong = options.embedding == "phong";
-    puppet_ = std::make_unique<MarkerPuppet>(mesh, skeleton, file, chosen_markers(file, options.only),
-                                             static_cast<std::size_t>(options.frame), puppet);
-    const int64_t left = static_cast<int64_t>(file.frames()) - options.frame;
-    end_ = options.frame + (options.frames < 0 ? left : std::min(left, options.frames));
+  Player(const Options& options, MarkerPuppet& puppet, const MarkerFile& file)
+      : options_(options), first_(options.choice.frame), file_(file), puppet_(&puppet), diagonal_(puppet.diagonal()) {
+    const int64_t left = static_cast<int64_t>(file.frames()) - first_;
+    end_ = first_ + (options.frames < 0 ? left : std::min(left, options.frames));
     if (!options.out.empty()) video_ = std::make_unique<VideoWriter>(options.out, kWidth, kHeight, file.rate_hz);
     if (!options.csv.empty()) open_csv();
   }
   Summary play() {
-    Progress progress(end_ - options_.frame);
+    Progress progress(end_ - first_);
     MeshView view(kWidth, kHeight, upright(), 0.55f * diagonal_);
-    for (int64_t f = options_.frame; f < end_; ++f) {
+    for (int64_t f = first_; f < end_; ++f) {
       take(f);
       if (video_ != nullptr) {
         const cv::Mat& picture = view.draw(puppet_->places(), puppet_->triangles(), puppet_->targets(), centre());
         video_->add({picture.data, picture.total() * 3});
       }
       if (csv_ != nullptr) write_row(f);
-      progress.show(f - options_.frame + 1);
+      progress.show(f - first_ + 1);
     }
     if (video_ != nullptr) video_->finish();
     if (csv_ != nullptr) csv_->close();
     return sum_;
   }
   const MarkerPuppet& puppet() const { return *puppet_; }
-  float diagonal() const { return diagonal_; }
 
  private:
   // A little from above and from the side; the mesh's own up is y, as in most files.
@@ -125,8 +91,8 @@ class Player {
     sum_.solve_us += static_cast<double>(steady_now_ns() - before_ns) * 1e-3;
     ++sum_.frames;
     sum_.held += report.held, sum_.factorised += report.factorised, sum_.guarded += report.guarded;
-    if (f == options_.frame) volume_ = puppet_->volume();
-    if (f > options_.frame) measure_step(f);
+    if (f == first_) volume_ = puppet_->volume();
+    if (f > first_) measure_step(f);
     const LatticeQuality q = puppet_->lattice().quality();
     sum_.rrms += static_cast<double>(q.rrms);
     sum_.worst_rrms = std::max(sum_.worst_rrms, q.rrms);
@@ -168,30 +134,50 @@ class Player {
   }
 
   const Options& options_;
+  int64_t first_, end_ = 0;
   const MarkerFile& file_;
+  MarkerPuppet* puppet_;
   float diagonal_;
-  int64_t end_ = 0;
   double volume_ = 1.0;
-  std::unique_ptr<MarkerPuppet> puppet_;
   std::unique_ptr<VideoWriter> video_;
   std::unique_ptr<TextFile> csv_;
   std::vector<float> last_;
   Summary sum_;
 };
 
+std::unique_ptr<MarkerPuppet> puppet_of(const Options& options, const MarkerFile& file,
+                                        const LoadedCharacter* character) {
+  PuppetOptions puppet;
+  puppet.lattice.vertices = options.vertices;
+  puppet.lattice.form = options.stacked ? LatticeForm::stacked : LatticeForm::arap;
+  puppet.solver.max_iterations = options.iterations;
+  puppet.solver.w_d = options.bone_weight;
+  if (!options.choice.axes.empty()) puppet.turns = {parse_axes(options.choice.axes)};
+  puppet.phong = options.embedding == "phong";
+  const auto markers = chosen_markers(file, options.choice);
+  const auto frame = static_cast<std::size_t>(options.choice.frame);
+  if (character != nullptr) {
+    return std::make_unique<MarkerPuppet>(character->character(), file, markers, frame, puppet);
+  }
+  const SkeletonSpec skeleton = options.skeleton.empty() ? SkeletonSpec{} : read_skeleton(options.skeleton);
+  return std::make_unique<MarkerPuppet>(read_triangles(options.mesh), skeleton, file, markers, frame, puppet);
+}
+
 Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
-  const BuiltLattice& built = player.puppet().built();
+  const MarkerPuppet& puppet = player.puppet();
+  const LatticeView& view = puppet.view();
   const auto n = static_cast<double>(std::max<int64_t>(s.frames, 1));
   Json json;
   json["frames"] = s.frames;
   json["rate_hz"] = file.rate_hz;
-  json["markers"] = built.data.markers.size();
+  json["markers"] = view.markers.size();
   json["notes"] = file.notes;
-  json["registration_rms"] = player.puppet().registration().rms / player.diagonal();
+  json["registration_rms"] = puppet.registration().rms / puppet.diagonal();
+  json["bound_by_name"] = puppet.bound_by_name();
   json["lattice"] = {
-      {"vertices", built.data.vertices.size()},       {"tetrahedra", built.data.tetrahedra.size() / 4},
-      {"joints", built.data.joint_vertex.size()},     {"solver_bytes", Lattice::bytes_needed(built.data.view())},
-      {"mesh_vertices", built.embedding.slot.size()}, {"mesh_vertices_outside", built.outside}};
+      {"vertices", view.vertices.size()},        {"tetrahedra", view.tetrahedra.size() / 4},
+      {"joints", view.skeleton.joints()},        {"solver_bytes", Lattice::bytes_needed(view)},
+      {"mesh_vertices", puppet.mesh_vertices()}, {"mesh_vertices_outside", puppet.mesh_vertices_outside()}};
   json["frames_held"] = s.held;
   json["factorisations"] = s.factorised;
   json["mixed_steps_taken_back"] = s.guarded;
@@ -223,15 +209,19 @@ std::string line_of(const Json& json) {
 }
 
 void markers(const Options& options) {
-  check_outputs({options.file, options.mesh, options.skeleton}, {options.out, options.csv});
+  if (options.mesh.empty() == options.character.empty()) {
+    throw UserError("markers: say what to move: --mesh MESH, or --character FILE.ntchar with a lattice", 2);
+  }
+  if (!options.character.empty() && !options.skeleton.empty()) {
+    throw UserError("markers: --skeleton goes with --mesh; a character's lattice has its own", 2);
+  }
+  check_outputs({options.file, options.mesh, options.skeleton, options.character}, {options.out, options.csv});
   const MarkerFile file = read_marker_file(options.file);
   for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
-  if (options.frame < 0 || options.frame >= static_cast<int64_t>(file.frames())) {
-    throw UserError("--frame is beyond the file's " + std::to_string(file.frames()) + " frames", 2);
-  }
-  const TriangleMesh mesh = read_triangles(options.mesh);
-  const SkeletonSpec skeleton = options.skeleton.empty() ? SkeletonSpec{} : read_skeleton(options.skeleton);
-  Player player(options, mesh, skeleton, file);
+  std::optional<LoadedCharacter> character;
+  if (!options.character.empty()) character.emplace(options.character, Limits{});
+  const auto puppet = puppet_of(options, file, character ? &*character : nullptr);
+  Player player(options, *puppet, file);
   const Summary summary = player.play();
   const Json json = report_of(player, file, summary);
   write_text("-", options.json ? pretty(json) : line_of(json));
@@ -245,18 +235,12 @@ void add_markers(CLI::App& app, Action& action) {
   command->add_option("file", options->file, "recorded markers: C3D, TRC, Qualisys TSV or CSV")
       ->required()
       ->type_name("FILE");
-  command->add_option("--mesh", options->mesh, "the mesh to move, standing in the pose of --frame")
-      ->required()
-      ->type_name("MESH");
+  command->add_option("--mesh", options->mesh, "the mesh to move, standing in the pose of --frame")->type_name("MESH");
+  command->add_option("--character", options->character, "or a character whose file has a lattice")
+      ->type_name("FILE.ntchar");
   command->add_option("--skeleton", options->skeleton, "its joints, as text (docs/FORMATS.md)")->type_name("FILE");
-  command->add_option("--only", options->only, "markers whose names begin so, separated by commas")->type_name("NAMES");
-  command
-      ->add_option("--axes", options->axes,
-                   "the file's axes that are the mesh's x, y, z, such as x,z,-y (default: by trying)")
-      ->type_name("AXES");
-  command->add_option("--frame", options->frame, "where the actor stands as the mesh does; play from there (default 0)")
-      ->type_name("N");
-  command->add_option("--frames", options->frames, "how many (default all)")->type_name("N");
+  add_marker_choice(*command, options->choice);
+  command->add_option("--frames", options->frames, "so many, from --frame on (default all)")->type_name("N");
   command->add_option("--vertices", options->vertices, "of the lattice, about (default 600)")
       ->type_name("N")
       ->check(CLI::Range(100, 2000));

@@ -1,10 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/mocap/marker_puppet.h"
 
+#include <algorithm>
+
 #include "app/aligned_block.h"
+#include "app/author/lattice_binding.h"
 #include "platform/camera.h"
 
 namespace nt {
+
+namespace {
+
+float diagonal_of(const std::vector<Vec3>& points) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3 p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return length(high - low);
+}
+
+Vec3 place_of(const MarkerBinding& b, std::span<const Vec3> vertices) {
+  Vec3 sum;
+  for (int k = 0; k < 4; ++k) sum += b.weight[k] * vertices[b.vertex[k]];
+  return sum;
+}
+
+std::vector<std::string> marker_names(const CharacterLattice& l) {
+  std::vector<std::string> out;
+  for (const char* at = l.names.data(); out.size() < l.view.markers.size(); at += out.back().size() + 1) {
+    out.emplace_back(at);
+  }
+  return out;
+}
+
+}  // namespace
 
 struct MarkerPuppet::Memory {
   explicit Memory(std::size_t bytes) : block(bytes) {}
@@ -13,32 +43,88 @@ struct MarkerPuppet::Memory {
 
 MarkerPuppet::MarkerPuppet(const TriangleMesh& mesh, const SkeletonSpec& skeleton, const MarkerFile& file,
                            const std::vector<std::size_t>& markers, std::size_t frame, const PuppetOptions& options)
-    : used_(markers), targets_(markers.size()), seen_(markers.size()) {
-  std::vector<Vec3> chosen;
-  for (const std::size_t m : used_) chosen.push_back(file.frame(frame)[m]);
+    : used_(markers) {
+  choose(file, frame);
   const TriangleMesh whole = cleaned(mesh);
-  registration_ = register_markers(chosen, whole.positions, options.turns);
+  diagonal_ = diagonal_of(whole.positions);
+  registration_ = register_markers(chosen_, whole.positions, options.turns);
   std::vector<MarkerSpec> places;
-  for (std::size_t k = 0; k < used_.size(); ++k) {
-    if (!is_seen(chosen[k])) {
-      throw UserError("marker '" + file.names[used_[k]] +
-                      "' is not seen in the frame to register; choose another --frame or leave it out by --only");
-    }
-    places.push_back({file.names[used_[k]], registration_(chosen[k])});
-  }
+  for (std::size_t k = 0; k < used_.size(); ++k) places.push_back({file.names[used_[k]], registration_(chosen_[k])});
   built_ = build_lattice(mesh, skeleton, places, options.lattice);
-  const LatticeView view = built_.data.view();
-  const EmbeddingView embedding{built_.embedding.coordinates, built_.embedding.tetrahedron};
+  view_ = built_.data.view();
+  embedding_ = {built_.embedding.coordinates, built_.embedding.tetrahedron};
+  slots_ = built_.embedding.slot;
+  start(whole.triangles, options);
+}
+
+MarkerPuppet::MarkerPuppet(const Character& c, const MarkerFile& file, const std::vector<std::size_t>& markers,
+                           std::size_t frame, const PuppetOptions& options)
+    : used_(markers), view_(c.lattice.view), embedding_(c.lattice.embedding), slots_(c.lattice.slots) {
+  if (!c.lattice.present()) {
+    throw UserError("this character has no lattice; make it with `neontetra character MESH --lattice`");
+  }
+  choose(file, frame);
+  std::vector<Vec3> mesh;
+  for (std::size_t v = 0; v < c.vertices.size(); ++v) {
+    mesh.push_back({c.vertices[v].x, c.vertices[v].y, c.heights[v]});
+  }
+  diagonal_ = diagonal_of(mesh);
+  bind_by_name(c, file);
+  if (!by_name_) bind_anew(mesh, options.turns);
+  view_.markers = bindings_;
+  start({c.triangles.begin(), c.triangles.end()}, options);
+}
+
+void MarkerPuppet::choose(const MarkerFile& file, std::size_t frame) {
+  for (const std::size_t m : used_) {
+    chosen_.push_back(file.frame(frame)[m]);
+    if (is_seen(chosen_.back())) continue;
+    throw UserError("marker '" + file.names[m] +
+                    "' is not seen in the frame to register; choose another --frame or leave it out by --only");
+  }
+  targets_.resize(used_.size());
+  seen_.resize(used_.size());
+}
+
+// Where every marker's name is one of the character's, and they lie as the character has them.
+void MarkerPuppet::bind_by_name(const Character& c, const MarkerFile& file) {
+  constexpr float kSameBody = 0.005f;  // of the diagonal, rms
+  const std::vector<std::string> names = marker_names(c.lattice);
+  std::vector<Vec3> places;
+  for (const std::size_t m : used_) {
+    const auto at = std::find(names.begin(), names.end(), file.names[m]);
+    if (c.lattice.drive != LatticeDrive::markers || at == names.end()) return;
+    bindings_.push_back(c.lattice.view.markers[static_cast<std::size_t>(at - names.begin())]);
+    places.push_back(place_of(bindings_.back(), c.lattice.view.vertices));
+  }
+  registration_ = register_to_places(chosen_, places);
+  if (registration_.rms < kSameBody * diagonal_) {
+    by_name_ = true;
+    return;
+  }
+  const Binder binder(c.lattice.view.vertices, c.lattice.view.tetrahedra);
+  for (std::size_t k = 0; k < chosen_.size(); ++k) bindings_[k] = binder.marker(registration_(chosen_[k]));
+  by_name_ = true;
+}
+
+void MarkerPuppet::bind_anew(const std::vector<Vec3>& mesh, const std::vector<Quat>& turns) {
+  registration_ = register_markers(chosen_, mesh, turns);
+  const Binder binder(view_.vertices, view_.tetrahedra);
+  bindings_.clear();
+  for (const Vec3 p : chosen_) bindings_.push_back(binder.marker(registration_(p)));
+}
+
+void MarkerPuppet::start(const std::vector<uint32_t>& mesh_triangles, const PuppetOptions& options) {
   Arena measure;
-  if (options.phong) PhongEmbedding::create(measure, embedding, view);
-  memory_ = std::make_unique<Memory>(Lattice::bytes_needed(view) + measure.used());
+  if (options.phong) PhongEmbedding::create(measure, embedding_, view_);
+  memory_ = std::make_unique<Memory>(Lattice::bytes_needed(view_) + measure.used());
   Arena arena(memory_->block.bytes());
-  const auto made = Lattice::create(arena, view, options.solver);
+  const auto made = Lattice::create(arena, view_, options.solver);
   if (!made.ok()) throw UserError(made.status().message);
   lattice_ = made.value();
-  if (options.phong) phong_ = PhongEmbedding::create(arena, embedding, view);
-  places_.resize(12 * embedding.blocks());
-  for (const uint32_t i : whole.triangles) triangles_.push_back(built_.embedding.slot[i]);
+  if (options.phong) phong_ = PhongEmbedding::create(arena, embedding_, view_);
+  places_.resize(12 * embedding_.blocks());
+  for (const uint32_t i : mesh_triangles) triangles_.push_back(slots_[i]);
 }
 
 MarkerPuppet::~MarkerPuppet() = default;
@@ -53,14 +139,13 @@ LatticeReport MarkerPuppet::step(std::span<const Vec3> file_frame) {
   if (phong_ != nullptr) {
     phong_->embed(lattice_->vertices(), places_);
   } else {
-    embed_linear({built_.embedding.coordinates, built_.embedding.tetrahedron}, lattice_->view(), lattice_->vertices(),
-                 places_);
+    embed_linear(embedding_, view_, lattice_->vertices(), places_);
   }
   return report;
 }
 
 Vec3 MarkerPuppet::vertex(std::size_t v) const {
-  const std::size_t s = 3u * built_.embedding.slot[v];
+  const std::size_t s = 3u * slots_[v];
   return {places_[s], places_[s + 1], places_[s + 2]};
 }
 
@@ -78,10 +163,7 @@ float MarkerPuppet::marker_error() const {
   float sum = 0.0f, count = 0.0f;
   for (std::size_t k = 0; k < used_.size(); ++k) {
     if (!seen_[k]) continue;
-    Vec3 at;
-    const MarkerBinding& b = built_.data.markers[k];
-    for (int c = 0; c < 4; ++c) at += b.weight[c] * lattice_->vertices()[b.vertex[c]];
-    sum += length(at - targets_[k]), count += 1.0f;
+    sum += length(place_of(view_.markers[k], lattice_->vertices()) - targets_[k]), count += 1.0f;
   }
   return count > 0.0f ? sum / count : 0.0f;
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mesh that follows markers: lattice, solver and embedding in one place.
 //
-// Input: a mesh, maybe a skeleton, a marker file and the frame in which the mesh's pose is the actor's. Then one frame after
-// another: markers in, mesh vertices out, in the mesh's unit and axes. Memory is taken once; a frame takes none.
+// Input: a mesh, maybe a skeleton, and a marker file with the frame in which the mesh's pose is the actor's; or a character file
+// with a lattice in place of the first two. Then one frame after another: markers in, mesh vertices out, in the mesh's (the
+// character's) unit and axes. Memory is taken once; a frame takes none.
+// A character whose markers have the file's names is registered by them, and keeps where each sits on it. Markers of an actor of
+// other proportions, or of other names, are bound anew where registration lays them, on the mesh or off it: that offset is
+// what makes up for the proportions.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -13,6 +17,7 @@
 #include "app/author/lattice_builder.h"
 #include "app/mocap/marker_file.h"
 #include "app/mocap/registration.h"
+#include "core/character/character.h"
 #include "core/deform/embed.h"
 #include "core/deform/lattice.h"
 
@@ -30,15 +35,22 @@ class MarkerPuppet {
   // markers: which of the file's to use. Throws UserError.
   MarkerPuppet(const TriangleMesh& mesh, const SkeletonSpec& skeleton, const MarkerFile& file,
                const std::vector<std::size_t>& markers, std::size_t frame, const PuppetOptions& options);
+  // The character's bytes must outlive it; `options.lattice` is not read.
+  MarkerPuppet(const Character& character, const MarkerFile& file, const std::vector<std::size_t>& markers,
+               std::size_t frame, const PuppetOptions& options);
   ~MarkerPuppet();
 
   LatticeReport step(std::span<const Vec3> file_frame);
   const std::vector<float>& places() const { return places_; }           // 3 a slot of the embedding
   const std::vector<uint32_t>& triangles() const { return triangles_; }  // of slots
   const std::vector<Vec3>& targets() const { return targets_; }          // this frame's markers, on the mesh
-  const BuiltLattice& built() const { return built_; }
+  const LatticeView& view() const { return view_; }
   const Lattice& lattice() const { return *lattice_; }
   const Registration& registration() const { return registration_; }
+  bool bound_by_name() const { return by_name_; }
+  std::size_t mesh_vertices() const { return slots_.size(); }
+  int mesh_vertices_outside() const { return built_.outside; }
+  float diagonal() const { return diagonal_; }  // of the mesh
   Vec3 vertex(std::size_t mesh_vertex) const;
   double volume() const;  // of the mesh, by the divergence theorem
   // Of the last step; an average over the markers that are seen, in the mesh's unit.
@@ -46,9 +58,21 @@ class MarkerPuppet {
 
  private:
   struct Memory;
+  void choose(const MarkerFile& file, std::size_t frame);
+  void bind_by_name(const Character& character, const MarkerFile& file);
+  void bind_anew(const std::vector<Vec3>& mesh, const std::vector<Quat>& turns);
+  void start(const std::vector<uint32_t>& mesh_triangles, const PuppetOptions& options);
+
   std::vector<std::size_t> used_;
+  std::vector<Vec3> chosen_;  // where the used ones are in the frame to register
   Registration registration_;
+  bool by_name_ = false;
   BuiltLattice built_;
+  LatticeView view_;
+  EmbeddingView embedding_;
+  std::span<const uint32_t> slots_;
+  std::vector<MarkerBinding> bindings_;
+  float diagonal_ = 1.0f;
   std::unique_ptr<Memory> memory_;
   Lattice* lattice_ = nullptr;
   PhongEmbedding* phong_ = nullptr;

@@ -107,6 +107,21 @@ Quat parse_axes(const std::string& axes) {
   return best_rotation(s);
 }
 
+Registration register_to_places(std::span<const Vec3> markers, std::span<const Vec3> places) {
+  std::vector<Vec3> from, to;
+  for (std::size_t k = 0; k < markers.size(); ++k) {
+    if (is_seen(markers[k])) from.push_back(markers[k]), to.push_back(places[k]);
+  }
+  if (from.size() < 3) {
+    throw UserError("fewer than three markers are seen in the frame to register; choose another --frame");
+  }
+  Registration out = fit(from, to);
+  float sum = 0.0f;
+  for (std::size_t k = 0; k < from.size(); ++k) sum += length_sq(out(from[k]) - to[k]);
+  out.rms = std::sqrt(sum / static_cast<float>(from.size()));
+  return out;
+}
+
 Registration register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh,
                               std::span<const Quat> turns) {
   constexpr std::size_t kMost = 4000;  // mesh vertices that are looked at

@@ -25,6 +25,10 @@ struct Registration {
 // "x,z,-y": which axes of the marker file the mesh's x, y and z are. UserError (code 2) if it is no turn.
 Quat parse_axes(const std::string& axes);
 
+// Markers whose places on the mesh are known, one for each: those that are not seen are left out. UserError with fewer than
+// three.
+Registration register_to_places(std::span<const Vec3> markers, std::span<const Vec3> places);
+
 // Markers that are not seen are left out; UserError with fewer than four. turns: what to start from; empty: all 24.
 Registration register_markers(std::span<const Vec3> markers, const std::vector<Vec3>& mesh,
                               std::span<const Quat> turns);

@@ -6,21 +6,13 @@
 #include "core/base/arena.h"
 #include "core/base/hash.h"
 #include "core/character/character_format.h"
+#include "core/character/lattice_section.h"
 #include "core/outline/fourier.h"
 
 namespace nt {
 namespace {
 
 Status bad(const char* message) { return {StatusCode::bad_data, message}; }
-
-// A section of `count` elements of T at `offset`, or an empty span when it does not lie inside the file.
-template <class T>
-std::span<const T> section(std::span<const std::byte> bytes, uint64_t offset, uint64_t count) {
-  const uint64_t size = bytes.size();
-  if (offset % kAlignment != 0 || offset < sizeof(CharacterHeader) || offset > size) return {};
-  if (count > (size - offset) / sizeof(T)) return {};
-  return {reinterpret_cast<const T*>(bytes.data() + offset), static_cast<std::size_t>(count)};
-}
 
 // NaN fails every comparison.
 bool in_range(float v, float limit) { return v >= -limit && v <= limit; }
@@ -83,10 +75,10 @@ Status check_preamble(std::span<const std::byte> bytes, CharacterHeader& h) {
   if (h.version > kCharacterVersion) {
     return {StatusCode::unsupported, "character file is newer than this program; update neontetra"};
   }
-  if (h.version < kCharacterVersion && h.version > 0) {
+  if (h.version < kOldestCharacterVersion && h.version > 0) {
     return {StatusCode::unsupported, "character file is of an older version; make it again with `neontetra character`"};
   }
-  if (h.version != kCharacterVersion || h.header_bytes != sizeof(CharacterHeader)) {
+  if (h.version < kOldestCharacterVersion || h.header_bytes != sizeof(CharacterHeader)) {
     return bad("character file is damaged (header); make it again with `neontetra character`");
   }
   if (h.file_bytes != bytes.size()) {
@@ -184,6 +176,7 @@ Result<Character> open_character(std::span<const std::byte> bytes, const Limits&
     return bad("character file is damaged (values out of range); make it again with `neontetra character`");
   }
   if (const Status s = read_solid(bytes, h, c); !s.ok()) return s;
+  if (const Status s = read_lattice(bytes, h, limits, c); !s.ok()) return s;
   c.u_num = static_cast<int>(h.u_num);
   c.l_num = static_cast<int>(h.l_num);
   c.harmonics = static_cast<int>(h.harmonics);

@@ -19,6 +19,8 @@
 #include "core/base/limits.h"
 #include "core/base/status.h"
 #include "core/base/vec3.h"
+#include "core/deform/embed.h"
+#include "core/deform/lattice_view.h"
 #include "core/deform/mls.h"
 #include "core/landmarks/fish_pose.h"
 #include "core/scene/scene.h"
@@ -51,6 +53,20 @@ struct FigureFrame {
   bool mirror = false;  // the character is the figure's mirror image: x leads to the left of dir
 };
 
+// What moves a character's lattice: markers of a recording or a hand, or the control points of the fish.
+enum class LatticeDrive : uint8_t { markers, landmarks };
+
+// A control lattice around a solid ([L], core/deform/lattice.h), in character units: x, y as the vertices', z as the heights'.
+// With `landmarks` its markers are the control points that Retarget moves, in Retarget's order, and its skeleton is the midline.
+struct CharacterLattice {
+  LatticeDrive drive = LatticeDrive::markers;
+  LatticeView view;
+  EmbeddingView embedding;
+  std::span<const uint32_t> slots;  // of each vertex of the character: four a block of the embedding
+  std::span<const char> names;      // of the markers, then of the joints, each ended by a 0
+  bool present() const { return !view.vertices.empty(); }
+};
+
 struct Character {
   int u_num = 3, l_num = 15;
   int harmonics = 5;         // S
@@ -65,6 +81,7 @@ struct Character {
   std::span<const Vec2> texcoords;      // [0, 1], v down
   std::span<const uint32_t> triangles;  // three indices each
   Picture texture;                      // rgba8
+  CharacterLattice lattice;             // of some solids
 
   bool solid() const { return !heights.empty(); }
 };

@@ -144,6 +144,14 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
   r.mesh_ = Mls::create(arena, character.vertices, rest, settings.mls, settings.mls_alpha, kThinSpread);
   r.vertices_ = arena.take<Vec2>(character.vertices.size());
   r.solid_.create(arena, character, body);
+  if (settings.deformer == Deformer::lattice) {
+    if (!LatticePose::fits(character, rest)) {
+      return Status{
+          StatusCode::bad_data,
+          "the character has no lattice for its control points; make one with `neontetra character --lattice`"};
+    }
+    r.lattice_ = LatticePose::create(arena, character);
+  }
   r.meter_ = DistortionMeter::create(arena, character);
   r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
   if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));
@@ -161,6 +169,7 @@ Result<Retarget*> Retarget::twin(Arena& arena, const Retarget& of) {
   const std::span<Retarget> self = arena.take<Retarget>(1);
   r.vertices_ = arena.take<Vec2>(of.vertices_.size());
   r.solid_.twin(arena, of.solid_);
+  if (r.settings_.deformer == Deformer::lattice) r.lattice_ = LatticePose::create(arena, r.character_);
   r.filter_ = {};
   r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
   if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));
@@ -226,6 +235,7 @@ Motion Retarget::rest_motion() const {
 void Retarget::start(float init_len_px) {
   scale_ = init_len_px > 0.0f ? lengths_.body_len / init_len_px : 1.0f;
   filter_.reset();
+  if (lattice_ != nullptr) lattice_->reset();
   started_ = false;
 }
 
@@ -316,7 +326,8 @@ void Retarget::place(const Frame& frame, const Placement& placement) {
   const auto scene = [&](Vec2 p) { return origin + right * p.x + up * p.y; };
   zoom_ = placement.zoom;
   for (Vec2& v : vertices_) v = scene(v);
-  solid_.pose({points_, body_count()}, up);
+  if (lattice_ != nullptr) solid_.take(*lattice_, up);
+  else solid_.pose({points_, body_count()}, up);
   ControlPoints& c = scene_points_;
   std::size_t at = 0;
   c.centre = scene(points_[at++]), c.head = scene(points_[at++]), c.tail = scene(points_[at++]);
@@ -330,6 +341,18 @@ void Retarget::place(const Frame& frame, const Placement& placement) {
   }
 }
 
+void Retarget::deform() {
+  if (lattice_ == nullptr) {
+    mesh_->deform({points_, control_count_}, vertices_);
+    return;
+  }
+  (void)lattice_->pose({points_, control_count_});
+  for (std::size_t v = 0; v < vertices_.size(); ++v) {
+    const Vec3 p = lattice_->place(v);
+    vertices_[v] = {p.x, p.y};
+  }
+}
+
 void Retarget::pose(const Motion& motion, float dt_s, const Placement& placement) {
   pose_body(motion);
   const std::size_t body = body_count();
@@ -339,7 +362,7 @@ void Retarget::pose(const Motion& motion, float dt_s, const Placement& placement
   }
   Frame frame{motion.centre * scale_, motion.dir_rad};
   smooth(frame, dt_s);
-  mesh_->deform({points_, control_count_}, vertices_);
+  deform();
   place(frame, placement);
 }
 

@@ -19,6 +19,7 @@
 //   junctions keep their distance while the body bends: so it keeps its area.
 // - A second pair of fins follows the first: the fish has one.
 // - The filter also runs over the centre and the direction, which [F] leaves to its points in the world.
+// With Deformer::lattice the same control points move the lattice of a 3D character in place of the last step.
 // Memory: fixed, from the arena; cost: vertices x control points x 8 flops (0.03 ms for 2,500 x 37).
 #pragma once
 #include <span>
@@ -26,6 +27,7 @@
 #include "core/base/arena.h"
 #include "core/character/character.h"
 #include "core/character/distortion.h"
+#include "core/character/lattice_pose.h"
 #include "core/character/solid_pose.h"
 #include "core/deform/mls.h"
 #include "core/motion/filter.h"
@@ -42,7 +44,11 @@ struct BoneLengths {
 };
 BoneLengths bone_lengths(const Character& character);  // Algorithm 1
 
+// What moves the vertices between the control points. The lattice is for 3D characters whose file has one for landmarks.
+enum class Deformer : uint8_t { mls, lattice };
+
 struct RetargetSettings {
+  Deformer deformer = Deformer::mls;
   MlsKind mls = MlsKind::rigid;
   // Weights 1 / |p - v|^(2 alpha). Of 1, 1.5 and 2 on the bundled carp over nine poses, 1.5 keeps the least triangle
   // largest (0.29 of its rest area in a bend of +-0.9 rad with folded fins; 1 turns ten over) and draws no kinks.
@@ -83,6 +89,7 @@ class Retarget {
 
   std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
   const SolidPose& solid() const { return solid_; }                      // of a 3D character; empty for a flat one
+  const LatticePose* lattice() const { return lattice_; }                // null with another deformer
   const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
   const BoneLengths& lengths() const { return lengths_; }
   // All control points that move the vertices, at rest and as posed (and filtered) last; character units, local frame.
@@ -120,6 +127,7 @@ class Retarget {
   void keep_root(const Fin& fin);
   void pose_fin(int index, float motion_open);
   void smooth(Frame& frame, float dt_s);
+  void deform();
   void place(const Frame& frame, const Placement& placement);
 
   Character character_;
@@ -128,6 +136,7 @@ class Retarget {
   Mls* junctions_ = nullptr;  // the implicit model: body control points move the junctions
   Mls* mesh_ = nullptr;       // the explicit model: all control points move the vertices
   SolidPose solid_;
+  LatticePose* lattice_ = nullptr;  // null: mesh_ and solid_ alone
   DistortionMeter* meter_ = nullptr;
   float zoom_ = 1;  // of the last pose
   KalmanBank filter_;

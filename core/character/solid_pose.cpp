@@ -77,4 +77,14 @@ void SolidPose::pose(std::span<const Vec2> body, Vec2 up) {
   }
 }
 
+void SolidPose::take(const LatticePose& lattice, Vec2 up) {
+  const float zoom = length(up);
+  const Vec2 unit_up = normalised(up), unit_right = right_of(unit_up);
+  for (std::size_t v = 0; v < heights_.size(); ++v) {
+    heights_[v] = lattice.place(v).z * zoom;
+    const Vec3 n = lattice.normal(v);
+    normals_[v] = {unit_right.x * n.x + unit_up.x * n.y, unit_right.y * n.x + unit_up.y * n.y, n.z};
+  }
+}
+
 }  // namespace nt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moving least squares in the plane leaves open for a 3D character: the heights and the normals of its vertices.
+// The heights and the normals of a 3D character's vertices, which moving least squares in the plane leaves open.
 //
 // Rest heights and normals (character units and axes) + the body's control points as posed -> heights in scene pixels, and
 // normals with scene axes (x right, y down, z towards the viewer), not quite of unit length. Heights are kept as they are
@@ -11,6 +11,7 @@
 
 #include "core/base/arena.h"
 #include "core/character/character.h"
+#include "core/character/lattice_pose.h"
 
 namespace nt {
 
@@ -23,6 +24,9 @@ class SolidPose {
 
   // `up`: the scene's direction of the character's y, as long as one character unit is there.
   void pose(std::span<const Vec2> body, Vec2 up);
+
+  // The same from a lattice, which knows them.
+  void take(const LatticePose& lattice, Vec2 up);
 
   std::span<const float> heights() const { return heights_; }
   std::span<const Vec3> normals() const { return normals_; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <new>
 
+#include "core/deform/untangle.h"
+
 namespace nt {
 namespace {
 
@@ -332,13 +334,16 @@ void Lattice::spread_bone_shift() {
   }
 }
 
-void Lattice::finish() {
+// The pose from the iterate. Returns how many tetrahedra are turned inside out.
+int Lattice::finish() {
   for (std::size_t i = 0; i < n_; ++i) pose_[i] = at(i);
-  if (view_.skeleton.joints() == 0 || !settings_.exact_bones) return;
-  skeleton_.project(x_.data(), q_);
-  static_assert(sizeof(Vec3) == 3 * sizeof(float));
-  skeleton_.place(&pose_[0].x);
-  spread_bone_shift();
+  if (view_.skeleton.joints() > 0 && settings_.exact_bones) {
+    skeleton_.project(x_.data(), q_);
+    static_assert(sizeof(Vec3) == 3 * sizeof(float));
+    skeleton_.place(&pose_[0].x);
+    spread_bone_shift();
+  }
+  return settings_.untangle_sweeps > 0 ? untangle(view_, on_bone_, settings_.untangle_sweeps, pose_) : 0;
 }
 
 LatticeReport Lattice::step(std::span<const Vec3> markers, std::span<const uint8_t> seen) {
@@ -372,7 +377,7 @@ LatticeReport Lattice::step(std::span<const Vec3> markers, std::span<const uint8
   }
   report.guarded = anderson_.guarded();
   started_ = true;
-  finish();
+  report.inverted = finish();
   return report;
 }
 

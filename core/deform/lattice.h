@@ -42,7 +42,8 @@ struct LatticeSettings {
   bool accelerate = true;
   bool extrapolate = true;
   bool exact_bones = true;
-  int blend_frames = 24;  // over which a marker fades out or its offset in
+  int untangle_sweeps = 400;  // at most, where tetrahedra are turned inside out (core/deform/untangle.h); 0: they stay
+  int blend_frames = 24;      // over which a marker fades out or its offset in
 };
 
 struct LatticeReport {
@@ -52,6 +53,7 @@ struct LatticeReport {
   int guarded = 0;          // mixed steps taken back
   bool held = false;        // no marker: the pose of before
   bool factorised = false;  // the markers' weights changed
+  int inverted = 0;         // tetrahedra that no sweep could turn back
   bool singular = false;    // a pivot was not positive: the pose of before; widen w_u or check the lattice
 };
 
@@ -78,6 +80,8 @@ class Lattice {
 
   std::span<const Vec3> vertices() const { return pose_; }
   std::span<const Quat> bone_rotations() const { return skeleton_.rotations(); }
+  // Of each vertex the columns of its rotation, nine floats, as of the last step's last iteration.
+  std::span<const float> rotation_columns() const { return columns_; }
   const Skeleton& skeleton() const { return skeleton_; }
   const LatticeView& view() const { return view_; }
   LatticeQuality quality() const;
@@ -109,7 +113,7 @@ class Lattice {
   void stack_shape();
   void add_constraints();
   double iterate();
-  void finish();
+  int finish();
   void spread_bone_shift();
   Vec3 at(std::size_t i) const { return {x_[3 * i], x_[3 * i + 1], x_[3 * i + 2]}; }
   Vec3 marker_place(const MarkerBinding& b) const;

@@ -6,7 +6,9 @@
 #include "core/base/hash.h"
 #include "core/character/character.h"
 #include "core/character/character_format.h"
+#include "core/deform/lattice.h"
 #include "tests/support/block.h"
+#include "tests/support/solve_once.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   nt::test::Block block(size + 1);
@@ -25,6 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, std::size_t size) {
   for (std::size_t i = 0; i < c.heights.size(); ++i) sum += c.heights[i] + c.normals[i].z;
   for (int y = 0; y < c.texture.height; ++y)
     sum += c.texture.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(c.texture.stride)];
+  if (c.lattice.present()) sum += nt::test::solve_once(c.lattice);
   static volatile float sink = 0;
   sink = sum;
   return 0;

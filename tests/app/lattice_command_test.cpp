@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// `neontetra character --lattice` and `neontetra markers --character`, as a user types them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/author/marker_places.h"
+#include "platform/camera.h"
+#include "tests/app/mesh_text.h"
+#include "tests/app/run_binary.h"
+
+namespace nt {
+namespace {
+
+class LatticeCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(mesh_) << fish_obj().text;
+    std::ofstream(skeleton_) << "head - 0.8 0 0\nmiddle head 0.1 0 0 y -60 60 z -60 60\ntail middle -0.6 0 0\n";
+    std::ofstream(places_) << "nose 0.95 0 0 # by place\nside 0.3 0 0.2\nback 0.3 0.25 0\nrear -0.6 0 0\nfirst 0\n";
+    // The same places a hundred times as large with other axes, then swaying.
+    std::ofstream csv(recording_);
+    csv << "nose_x,nose_y,nose_z,side_x,side_y,side_z,back_x,back_y,back_z,rear_x,rear_y,rear_z\n";
+    const double place[4][3] = {{0.95, 0, 0}, {0.3, 0, 0.2}, {0.3, 0.25, 0}, {-0.6, 0, 0}};
+    for (int f = 0; f < 20; ++f) {
+      for (int m = 0; m < 4; ++m) {
+        const double sway = f * 0.01 * place[m][0] * place[m][0];
+        csv << (m ? "," : "") << 100 * place[m][0] << "," << -100 * (place[m][2] + sway) << "," << 100 * place[m][1];
+      }
+      csv << "\n";
+    }
+  }
+  void refused(const std::string& arguments, const std::string& part) const {
+    const Outcome run = neontetra(arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_EQ(run.error_lines(), 1) << run.err;
+    EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+  }
+  TempDir dir_;
+  const std::string mesh_ = dir_ / "fish.obj", skeleton_ = dir_ / "fish.skeleton", places_ = dir_ / "fish.markers",
+                    recording_ = dir_ / "swim.csv", out_ = dir_ / "fish.ntchar";
+};
+
+TEST_F(LatticeCommand, MarkersMoveACharacterByTheirNames) {
+  const Outcome made = neontetra("character " + mesh_ + " --lattice --skeleton " + skeleton_ + " --markers " + places_ +
+                                 " --vertices 300 --out " + out_);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("3 joints, 5 markers"), std::string::npos) << made.out;
+  const Outcome run = neontetra("markers " + recording_ + " --character " + out_ + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["frames"], 20);
+  EXPECT_EQ(json["markers"], 4);
+  EXPECT_TRUE(json["bound_by_name"]);
+  EXPECT_LT(double{json["registration_rms"]}, 1e-4);
+  EXPECT_EQ(json["inverted_worst"], 0);
+  EXPECT_LT(double{json["bone_error_worst"]}, 1e-3);
+}
+
+TEST_F(LatticeCommand, ASwimmersLatticeIsMadeAnewForCorrectedPoints) {
+  const Outcome made = neontetra("character " + mesh_ + " --lattice --out " + out_);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Outcome corrected = neontetra("character " + out_ + " --set l_num=9");
+  ASSERT_EQ(corrected.exit_code, 0) << corrected.err;
+  EXPECT_NE(corrected.out.find("15 joints"), std::string::npos) << corrected.out;
+  const Outcome run = neontetra("animate -c sim:scene=turns,seed=1,frames=60,size=480x272 --character " + out_ +
+                                " --deformer lattice --out " + (dir_ / "a.mp4"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(LatticeCommand, WhatDoesNotGoTogetherIsSaid) {
+  refused("character " + mesh_ + " --skeleton " + skeleton_ + " --out " + out_, "--lattice");
+  refused("markers " + recording_, "--mesh");
+  refused("markers " + recording_ + " --mesh " + mesh_ + " --character " + out_, "--mesh");
+  refused("markers " + recording_ + " --character " + out_ + " --skeleton " + skeleton_, "--skeleton");
+  const Outcome plain = neontetra("character " + mesh_ + " --out " + out_);
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  const Outcome run = neontetra("markers " + recording_ + " --character " + out_);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("no lattice"), std::string::npos) << run.err;
+  refused("character " + out_ + " --lattice --markers " + places_, "give the mesh");
+}
+
+TEST(MarkerPlaces, MistakesNameTheLine) {
+  const TriangleMesh mesh{{{1, 2, 3}, {4, 5, 6}}, {}};
+  const auto places = parse_marker_places("a 1 2 3\n# none\nb 1\n", "m", mesh);
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[1].position.y, 5.0f);
+  const auto message = [&](const std::string& text) {
+    try {
+      parse_marker_places(text, "m", mesh);
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_NE(message("a 1 2\n").find("line 1"), std::string::npos);
+  EXPECT_NE(message("a 2\n").find("0 to 1"), std::string::npos);
+  EXPECT_NE(message("a 1 2 x\n").find("line 1"), std::string::npos);
+  EXPECT_NE(message("a 0\na 1\n").find("already"), std::string::npos);
+  EXPECT_NE(message("").find("no marker"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nt

@@ -67,7 +67,7 @@ Action parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   Action action;
-  for (const auto add : {add_live, add_capture, add_animate, add_takes, add_edit, add_export, add_character,
+  for (const auto add : {add_live, add_capture, add_animate, add_takes, add_edit, add_play, add_export, add_character,
                          add_markers, add_bench, add_doctor})
     add(app, action);
   check_command(app, argc, argv);

@@ -24,6 +24,7 @@ void add_animate(CLI::App& app, Action& action);
 void add_takes(CLI::App& app, Action& action);
 void add_edit(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_play(CLI::App& app, Action& action);
 void add_character(CLI::App& app, Action& action);
 void add_markers(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);

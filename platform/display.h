@@ -43,6 +43,8 @@ class Display {
   virtual void draw_over(const Scene& scene, const std::function<void()>& over) = 0;
   // The picture last drawn: rgb8, rows top down, canvas size. Headless display only; empty in a window.
   virtual std::span<const uint8_t> pixels() { return {}; }
+  // The same as rgba8, not premultiplied: how much of what lies behind the scene shows through, where its background does.
+  virtual std::span<const uint8_t> pixels_with_alpha() { return {}; }
   virtual void poll(std::vector<InputEvent>& events) { events.clear(); }
 };
 

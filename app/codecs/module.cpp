@@ -10,6 +10,7 @@ extern "C" {
 
 #include "app/author/mesh_file.h"
 #include "app/author/triangle_mesh.h"
+#include "app/codecs/gltf_file.h"
 #include "app/codecs/libav_video.h"
 #include "platform/codecs.h"
 #include "platform/sim/decoded_files.h"
@@ -36,4 +37,9 @@ extern "C" __attribute__((visibility("default"))) void neontetra_read_mesh(const
 extern "C" __attribute__((visibility("default"))) void neontetra_read_triangles(const std::string& path,
                                                                                 nt::TriangleMesh& mesh) {
   mesh = nt::read_triangles_file(path);
+}
+
+extern "C" __attribute__((visibility("default"))) void neontetra_write_glb(const nt::SkinnedModel& model,
+                                                                           std::vector<uint8_t>& bytes) {
+  bytes = nt::write_glb_bytes(model);
 }

@@ -135,6 +135,7 @@ void join(const std::vector<std::string>& files, const std::string& out) {
     for (const int fish : take.fish()) {
       const std::vector<TakeFrame> more = take.frames(fish);
       for (TakeFrame frame : more) {
+        if (!frame.recorded) continue;
         frame.motion.time_ns += next_time_ns - more.front().motion.time_ns;
         frame.frame += next_frame;
         last_frame = std::max(last_frame, frame.frame + 1);

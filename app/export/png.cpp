@@ -2,7 +2,6 @@
 #include "app/export/png.h"
 
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "app/export/output_file.h"
 #include "platform/camera.h"
@@ -24,13 +23,18 @@ cv::Mat as_opencv(const Picture& picture) {
 
 }  // namespace
 
-void write_png(const std::string& path, const Picture& picture) {
+std::vector<uint8_t> png_bytes(const Picture& picture, const std::string& name) {
   if (picture.pixels == nullptr || picture.width <= 0 || picture.height <= 0) {
-    throw UserError("cannot write " + path + ": there is no picture to write");
+    throw UserError("cannot write " + name + ": there is no picture to write");
   }
   std::vector<uint8_t> bytes;
   if (!codecs().encode_png(as_opencv(picture), bytes))
-    throw UserError("cannot write " + path + ": OpenCV here has no PNG encoder");
+    throw UserError("cannot write " + name + ": OpenCV here has no PNG encoder");
+  return bytes;
+}
+
+void write_png(const std::string& path, const Picture& picture) {
+  const std::vector<uint8_t> bytes = png_bytes(picture, path);
   OutputFile file(path);
   const bool complete = file.write_at(0, bytes);
   if (!file.close() || !complete) throw UserError(file.error_line() + "; the picture is cut");

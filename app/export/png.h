@@ -3,11 +3,14 @@
 // folder is missing, may not be written, or the disk is full. Cost: encoding in memory, one write.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/scene/scene.h"
 
 namespace nt {
 
+// The file's bytes; `name` is for messages.
+std::vector<uint8_t> png_bytes(const Picture& picture, const std::string& name);
 void write_png(const std::string& path, const Picture& picture);
 
 }  // namespace nt

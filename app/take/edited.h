@@ -17,5 +17,7 @@ struct EditedTake {
 // Opens the take and says on stderr where it had to be recovered. `fish` -1: the first one. `edits` false: as recorded.
 // Throws UserError: no such fish, edits that do not fit.
 EditedTake load_take(const std::string& path, int fish, bool edits);
+// All fish of the take, or the one asked for; all as long as the take.
+std::vector<EditedTake> load_fish(const std::string& path, int fish, bool edits);
 
 }  // namespace nt

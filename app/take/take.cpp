@@ -7,12 +7,16 @@
 #include <filesystem>
 
 #include "app/take/take_row.h"
+#include "core/motion/property.h"
 #include "platform/camera.h"
 
 namespace nt {
 namespace {
 
 constexpr int64_t kApplicationId = 0x4e54616b;  // "NTak"
+
+// A take with more frames missing for each that is there was not made by us.
+constexpr int64_t kMostMissing = 1000;
 
 constexpr const char* kSchema =
     "CREATE TABLE info(key TEXT PRIMARY KEY, value) WITHOUT ROWID;"
@@ -217,15 +221,45 @@ std::vector<int> Take::fish() {
   return fish;
 }
 
+namespace {
+
+// Frames of one fish, up to the number `next`, that were not recorded.
+void fill_up(std::vector<TakeFrame>& frames, int fish, int64_t next, const TakeInfo& info, int64_t first) {
+  TakeFrame missing;
+  missing.fish = fish;
+  missing.motion = straight_motion(info.u_num, info.l_num);
+  missing.pose.u_num = info.u_num, missing.pose.l_num = info.l_num;
+  if (!frames.empty()) missing = frames.back();
+  missing.flags = 0, missing.recorded = false;
+  missing.motion.status = missing.pose.status = frames.empty() ? PoseStatus::absent : PoseStatus::lost;
+  missing.motion.confidence = missing.pose.confidence = {};
+  const int64_t from = frames.empty() ? first : frames.back().frame + 1, from_ns = missing.motion.time_ns;
+  for (int64_t number = from; number < next; ++number) {
+    missing.frame = number;
+    missing.motion.time_ns = from_ns + static_cast<int64_t>(static_cast<double>(number - from + 1) * 1e9 / info.fps);
+    frames.push_back(missing);
+  }
+}
+
+}  // namespace
+
 std::vector<TakeFrame> Take::frames(int fish) {
   std::vector<TakeFrame> frames;
   try {
+    Statement ends = database_->prepare("SELECT min(frame), max(frame), count(*) FROM frame");
+    if (!ends.step() || ends.integer(2) == 0) return frames;
+    const int64_t first = ends.integer(0), last = ends.integer(1);
+    if (first < 0 || last - first > kMostMissing * ends.integer(2)) throw DatabaseError(SQLITE_CORRUPT, "");
     Statement list =
         database_->prepare("SELECT frame, fish, time_ns, status, flags, data FROM frame WHERE fish = ? ORDER BY frame");
     list.bind(1, static_cast<int64_t>(fish));
     while (list.step()) {
-      if (!read_frame(list, info_, frames.emplace_back())) throw DatabaseError(SQLITE_CORRUPT, "");
+      TakeFrame frame;
+      if (!read_frame(list, info_, frame)) throw DatabaseError(SQLITE_CORRUPT, "");
+      fill_up(frames, fish, frame.frame, info_, first);
+      frames.push_back(frame);
     }
+    if (!frames.empty()) fill_up(frames, fish, last + 1, info_, first);
   } catch (const DatabaseError& error) {
     explain(error);
   }

@@ -35,6 +35,7 @@ struct TakeFrame {
   float init_len = 0;  // of this fish, pixels
   Motion motion;       // its status and time are the frame's
   FishPose pose;
+  bool recorded = true;  // false: Take::frames() has put it in a place where nothing was recorded
 };
 
 struct TakeSummary {
@@ -59,7 +60,9 @@ class Take {
   void append(std::span<const TakeFrame> frames);  // one transaction
   TakeSummary summary();
   std::vector<int> fish();
-  std::vector<TakeFrame> frames(int fish);  // in order
+  // One for every frame from the take's first to its last, in order: where nothing was recorded of this fish (it came
+  // later, or the frame was dropped) without a pose, `absent` before its first and `lost` with its last motion after.
+  std::vector<TakeFrame> frames(int fish);
   // The edit list, a line each (edits.h), kept beside the untouched recording.
   std::vector<std::string> edits();
   void set_edits(const std::vector<std::string>& lines);

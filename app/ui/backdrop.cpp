@@ -51,20 +51,30 @@ void add_backdrop_option(CLI::App& command, const std::function<void(const Backd
       ->type_name("COLOUR|FILE|camera");
 }
 
-Backdrop::Backdrop(const BackdropOption& option, const Pane& pane, Session& session)
-    : pane_(pane), colour_(option.colour) {
+Backdrop::Backdrop(const BackdropOption& option, const Pane& pane) : pane_(pane), colour_(option.colour) {
+  if (option.kind == BackdropOption::Kind::camera)
+    throw UserError("--backdrop camera: a take holds no pictures; name a colour or a picture", 2);
+  show_picture(option);
+}
+
+void Backdrop::show_picture(const BackdropOption& option) {
+  picture_.id = kBackdropPicture;
   if (option.kind == BackdropOption::Kind::picture) {
-    rgb_ = fitted(option.path, pane);
+    rgb_ = fitted(option.path, pane_);
     picture_.pixels = rgb_.data;
     picture_.width = rgb_.cols, picture_.height = rgb_.rows, picture_.stride = static_cast<int>(rgb_.step);
     picture_.format = PixelFormat::rgb8, picture_.revision = 1;
   }
+}
+
+Backdrop::Backdrop(const BackdropOption& option, const Pane& pane, Session& session)
+    : pane_(pane), colour_(option.colour) {
+  show_picture(option);
   if (option.kind == BackdropOption::Kind::camera) {
     plate_.emplace(session.info().width, session.info().height);
     // Before an even field the fish may never leave its place: then the median shows it, and the field itself is easily filled in.
     if (std::strcmp(session.capture().background_name(), "backlit") != 0) plate_->learn(session.camera());
   }
-  picture_.id = kBackdropPicture;
 }
 
 void Backdrop::update(Session& session) {

@@ -36,11 +36,14 @@ class Backdrop {
  public:
   // Before the session's first step: the camera kind looks ahead. Throws UserError for a picture that cannot be read.
   Backdrop(const BackdropOption& option, const Pane& pane, Session& session);
+  // Where there is no camera: a colour or a picture.
+  Backdrop(const BackdropOption& option, const Pane& pane);
   Colour colour() const { return colour_; }  // of the canvas
   void update(Session& session);             // the session has taken a step
   void draw(Scene& scene) const;
 
  private:
+  void show_picture(const BackdropOption& option);
   Pane pane_;
   Colour colour_;
   cv::Mat rgb_;

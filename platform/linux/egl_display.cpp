@@ -4,6 +4,7 @@
 #include <EGL/eglext.h>
 #include <GLES3/gl3.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -123,18 +124,32 @@ class HeadlessDisplay : public Display {
     if (over) over();
   }
   std::span<const uint8_t> pixels() override {
-    context_.use();
-    framebuffer_.bind();
-    // RGBA is the one format that every GLES driver reads back.
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+    read_back();
     for (std::size_t from = 0, to = 0; from < rgba_.size(); from += 4, to += 3) {
       for (std::size_t k = 0; k < 3; ++k) rgb_[to + k] = rgba_[from + k];
     }
     return rgb_;
   }
+  std::span<const uint8_t> pixels_with_alpha() override {
+    read_back();
+    for (std::size_t at = 0; at < rgba_.size(); at += 4) {
+      const int alpha = rgba_[at + 3];
+      if (alpha == 0 || alpha == 255) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        rgba_[at + k] = static_cast<uint8_t>(std::min(255, (rgba_[at + k] * 255 + alpha / 2) / alpha));
+    }
+    return rgba_;
+  }
 
  private:
+  void read_back() {
+    context_.use();
+    framebuffer_.bind();
+    // RGBA is the one format that every GLES driver reads back.
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+  }
+
   int width_, height_;
   Context context_;  // before everything that lives in it
   Framebuffer framebuffer_;

@@ -179,7 +179,7 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   glScissor(fit.x, y, fit.width, fit.height);
   glEnable(GL_SCISSOR_TEST);
   const Colour back = scene.background();
-  glClearColor(back.r, back.g, back.b, 1);
+  glClearColor(back.r * back.a, back.g * back.a, back.b * back.a, back.a);
   glClear(GL_COLOR_BUFFER_BIT);
 
   build(scene, fit.scale);

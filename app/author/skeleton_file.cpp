@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include "app/author/curve_skeleton.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -59,6 +61,34 @@ SkeletonSpec read_skeleton(const std::string& path) {
   std::ifstream in(path);
   if (!in) throw UserError("cannot read " + path + "; is the name right?");
   return parse_skeleton(std::string((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()), path);
+}
+
+std::string skeleton_text(const SkeletonSpec& skeleton) {
+  std::string out;
+  char line[200];
+  for (const auto& j : skeleton.joints) {
+    const std::string parent = j.parent < 0 ? "-" : skeleton.joints[static_cast<std::size_t>(j.parent)].name;
+    std::snprintf(line, sizeof line, "%-12s %-12s %.6g %.6g %.6g", j.name.c_str(), parent.c_str(),
+                  static_cast<double>(j.position.x), static_cast<double>(j.position.y),
+                  static_cast<double>(j.position.z));
+    out += line;
+    const auto limit = [&](const char* key, float low, float high) {
+      if (low <= -det::kPi && high >= det::kPi) return;
+      std::snprintf(line, sizeof line, "  %s %.4g %.4g", key, static_cast<double>(low * 180.0f / det::kPi),
+                    static_cast<double>(high * 180.0f / det::kPi));
+      out += line;
+    };
+    limit("twist", j.limits.twist_min, j.limits.twist_max);
+    limit("y", j.limits.y_min, j.limits.y_max);
+    limit("z", j.limits.z_min, j.limits.z_max);
+    out += "\n";
+  }
+  return out;
+}
+
+SkeletonSpec skeleton_for(const std::string& path, const TriangleMesh& mesh) {
+  if (path.empty()) return {};
+  return path == "auto" ? curve_skeleton(mesh) : read_skeleton(path);
 }
 
 }  // namespace nt

@@ -12,5 +12,10 @@ namespace nt {
 
 SkeletonSpec parse_skeleton(const std::string& text, const std::string& name);
 SkeletonSpec read_skeleton(const std::string& path);
+// The other way round, without limits that are none.
+std::string skeleton_text(const SkeletonSpec& skeleton);
+
+// What a --skeleton option names: a file, or `auto` for curve_skeleton.h; nothing for "".
+SkeletonSpec skeleton_for(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace nt

@@ -2,10 +2,13 @@
 // neontetra bench: how long each stage takes on this machine, filming the simulated tank on one thread.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/author/character_lattice.h"
+#include "app/bench/lattice_table.h"
 #include "app/cast.h"
 #include "app/cli.h"
 #include "app/export/report.h"
@@ -24,6 +27,9 @@ struct Options {
   std::string background = "vibe";
   std::string character;
   bool json = false;
+  bool lattice = false;
+  std::string markers;  // a recording
+  MarkerChoice choice;
 };
 
 CaptureOptions tank_options(const Options& options) {
@@ -55,6 +61,30 @@ std::string table(Session& session, const TimeHistogram& retarget, const TimeHis
   char line[80];
   std::snprintf(line, sizeof line, "that is %.0f frames a second without camera and display\n", fps);
   return text + line;
+}
+
+// [L] Table I for one character, moved by a recording or swaying.
+void bench_lattice(const Options& options) {
+  const std::string path = options.character;
+  if (path.empty()) throw UserError("bench: --lattice wants a 3D --character", 2);
+  LoadedCharacter file = load_character(path);
+  if (!file.character().lattice.present()) {
+    const LatticeAsset made = fish_lattice(file.character(), {kFishLatticeVertices, LatticeForm::arap});
+    Character character = file.character();
+    character.lattice = made.view();
+    file = LoadedCharacter(character_bytes(character), path, Limits{});
+  }
+  const Character& character = file.character();
+  const MarkerFile recording =
+      options.markers.empty() ? swaying_markers(character) : read_recording(options.markers, options.choice);
+  const LatticeColumn column{std::filesystem::path(path).stem().string(),
+                             lattice_figures(character, recording, options.choice, -1)};
+  if (options.json) {
+    write_text("-", pretty(lattice_json(column)));
+    return;
+  }
+  write_text("-", std::string(simd_target()) + ", one thread; [L]: Table I, a Core2 Duo, other meshes and motions\n" +
+                      lattice_table({column}, true));
 }
 
 void bench(const Options& options) {
@@ -108,9 +138,15 @@ void add_bench(CLI::App& app, Action& action) {
       ->type_name("MODEL");
   command->add_option("--character", options->character, "also time how long it takes to pose this one")
       ->type_name("FILE");
+  command->add_flag("--lattice", options->lattice,
+                    "in place of the tank: what the character's lattice costs and keeps, beside Table I of its paper");
+  command->add_option("--markers", options->markers, "a recording that moves the lattice (default: it sways)")
+      ->type_name("FILE");
+  add_marker_choice(*command, options->choice);
   command->add_flag("--json", options->json, "as JSON");
   command->footer("Example: neontetra bench --character carp.ntchar");
-  command->callback([&action, options] { action = [options] { bench(*options); }; });
+  command->callback(
+      [&action, options] { action = [options] { options->lattice ? bench_lattice(*options) : bench(*options); }; });
 }
 
 }  // namespace nt

@@ -15,7 +15,7 @@ namespace {
 
 // The markers of a recording's frame, registered to the mesh; in the mesh file's axes.
 std::vector<MarkerSpec> recorded_markers(const LatticeRequest& request, const TriangleMesh& mesh) {
-  const MarkerFile file = read_marker_file(request.markers);
+  const MarkerFile file = read_recording(request.markers, request.choice);
   std::vector<Vec3> seen;
   std::vector<MarkerSpec> out;
   for (const std::size_t m : chosen_markers(file, request.choice)) {
@@ -38,8 +38,11 @@ void add_lattice_options(CLI::App& command, LatticeRequest& request) {
   command.add_flag("--lattice", request.wanted,
                    "give a 3D character a lattice of tetrahedra, for --deformer lattice and `neontetra markers`; "
                    "--vertices then are the lattice's (default 450)");
-  command.add_option("--skeleton", request.skeleton, "its joints, as text (docs/FORMATS.md); default: the midline")
-      ->type_name("FILE");
+  command
+      .add_option("--skeleton", request.skeleton,
+                  "its joints, as text (docs/FORMATS.md), or auto: curves along its limbs; "
+                  "default: a swimmer's midline")
+      ->type_name("FILE|auto");
   command
       .add_option("--markers", request.markers,
                   "what will move it: a recording, of which one frame is laid on the mesh, or text (docs/FORMATS.md)")
@@ -62,12 +65,11 @@ LatticeAsset lattice_for(const Character& character, const LatticeRequest& reque
     const Vec2 at = to_character(character.figure, {f.x, f.y});
     return Vec3{at.x, at.y, f.z};
   };
-  SkeletonSpec skeleton;
-  if (!request.skeleton.empty()) skeleton = read_skeleton(request.skeleton);
+  const TriangleMesh triangles = read_triangles(mesh);
+  SkeletonSpec skeleton = skeleton_for(request.skeleton, triangles);
   for (auto& joint : skeleton.joints) joint.position = place(joint.position);
   std::vector<MarkerSpec> markers;
   if (!request.markers.empty()) {
-    const TriangleMesh triangles = read_triangles(mesh);
     markers = is_marker_places(request.markers) ? read_marker_places(request.markers, triangles)
                                                 : recorded_markers(request, triangles);
   }

@@ -159,8 +159,9 @@ std::unique_ptr<MarkerPuppet> puppet_of(const Options& options, const MarkerFile
   if (character != nullptr) {
     return std::make_unique<MarkerPuppet>(character->character(), file, markers, frame, puppet);
   }
-  const SkeletonSpec skeleton = options.skeleton.empty() ? SkeletonSpec{} : read_skeleton(options.skeleton);
-  return std::make_unique<MarkerPuppet>(read_triangles(options.mesh), skeleton, file, markers, frame, puppet);
+  const TriangleMesh mesh = read_triangles(options.mesh);
+  const SkeletonSpec skeleton = skeleton_for(options.skeleton, mesh);
+  return std::make_unique<MarkerPuppet>(mesh, skeleton, file, markers, frame, puppet);
 }
 
 Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
@@ -216,7 +217,7 @@ void markers(const Options& options) {
     throw UserError("markers: --skeleton goes with --mesh; a character's lattice has its own", 2);
   }
   check_outputs({options.file, options.mesh, options.skeleton, options.character}, {options.out, options.csv});
-  const MarkerFile file = read_marker_file(options.file);
+  const MarkerFile file = read_recording(options.file, options.choice);
   for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
   std::optional<LoadedCharacter> character;
   if (!options.character.empty()) character.emplace(options.character, Limits{});
@@ -238,7 +239,10 @@ void add_markers(CLI::App& app, Action& action) {
   command->add_option("--mesh", options->mesh, "the mesh to move, standing in the pose of --frame")->type_name("MESH");
   command->add_option("--character", options->character, "or a character whose file has a lattice")
       ->type_name("FILE.ntchar");
-  command->add_option("--skeleton", options->skeleton, "its joints, as text (docs/FORMATS.md)")->type_name("FILE");
+  command
+      ->add_option("--skeleton", options->skeleton,
+                   "its joints, as text (docs/FORMATS.md), or auto: curves along its limbs")
+      ->type_name("FILE|auto");
   add_marker_choice(*command, options->choice);
   command->add_option("--frames", options->frames, "so many, from --frame on (default all)")->type_name("N");
   command->add_option("--vertices", options->vertices, "of the lattice, about (default 600)")

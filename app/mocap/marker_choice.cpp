@@ -14,11 +14,18 @@ void add_marker_choice(CLI::App& command, MarkerChoice& choice) {
       .add_option("--axes", choice.axes,
                   "the recording's axes that are the mesh's x, y, z, such as x,z,-y (default: by trying)")
       ->type_name("AXES");
+  command.add_flag("--mirror", choice.mirror, "the recording's mirror image: a right hand's for a left one");
   command
-      .add_option_function<int64_t>(
-          "--frame", [&choice](int64_t frame) { choice.frame = frame, choice.frame_is_set = true; },
-          "of the recording, in which the actor stands as the mesh does (default 0)")
+      .add_option("--frame", choice.frame, "of the recording, in which the actor stands as the mesh does (default 0)")
       ->type_name("N");
+}
+
+MarkerFile read_recording(const std::string& path, const MarkerChoice& choice) {
+  MarkerFile file = read_marker_file(path);
+  if (choice.mirror) {
+    for (Vec3& p : file.positions) p.x = -p.x;
+  }
+  return file;
 }
 
 std::vector<std::size_t> chosen_markers(const MarkerFile& file, const MarkerChoice& choice) {

@@ -14,13 +14,16 @@ class App;
 namespace nt {
 
 struct MarkerChoice {
-  std::string only;           // names begin with one of these words, separated by commas; all where it is empty
-  std::string axes;           // registration.h, parse_axes; "" tries all
-  int64_t frame = 0;          // where the actor stands as the mesh does
-  bool frame_is_set = false;  // by the user
+  std::string only;     // names begin with one of these words, separated by commas; all where it is empty
+  std::string axes;     // registration.h, parse_axes; "" tries all
+  int64_t frame = 0;    // where the actor stands as the mesh does
+  bool mirror = false;  // a right hand's recording for a left one
 };
 
 void add_marker_choice(CLI::App& command, MarkerChoice& choice);
+
+// The recording, its mirror image if that is asked for.
+MarkerFile read_recording(const std::string& path, const MarkerChoice& choice);
 
 // Throws UserError (code 2) when there is none, or when the file ends before the frame.
 std::vector<std::size_t> chosen_markers(const MarkerFile& file, const MarkerChoice& choice);

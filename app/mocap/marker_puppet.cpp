@@ -98,13 +98,15 @@ void MarkerPuppet::bind_by_name(const Character& c, const MarkerFile& file) {
     places.push_back(place_of(bindings_.back(), c.lattice.view.vertices));
   }
   registration_ = register_to_places(chosen_, places);
-  if (registration_.rms < kSameBody * diagonal_) {
-    by_name_ = true;
-    return;
-  }
-  const Binder binder(c.lattice.view.vertices, c.lattice.view.tetrahedra);
-  for (std::size_t k = 0; k < chosen_.size(); ++k) bindings_[k] = binder.marker(registration_(chosen_[k]));
   by_name_ = true;
+  if (registration_.rms < kSameBody * diagonal_) return;
+  // Each keeps its tetrahedron: where registration lays it another finger may be nearer.
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    MarkerBinding& b = bindings_[k];
+    const auto at = [&](int corner) { return view_.vertices[b.vertex[corner]]; };
+    const auto w = barycentric({at(0), at(1), at(2), at(3)}, registration_(chosen_[k]));
+    std::copy(w.begin(), w.end(), b.weight);
+  }
 }
 
 void MarkerPuppet::bind_anew(const std::vector<Vec3>& mesh, const std::vector<Quat>& turns) {

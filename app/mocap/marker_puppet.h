@@ -4,9 +4,9 @@
 // Input: a mesh, maybe a skeleton, and a marker file with the frame in which the mesh's pose is the actor's; or a character file
 // with a lattice in place of the first two. Then one frame after another: markers in, mesh vertices out, in the mesh's (the
 // character's) unit and axes. Memory is taken once; a frame takes none.
-// A character whose markers have the file's names is registered by them, and keeps where each sits on it. Markers of an actor of
-// other proportions, or of other names, are bound anew where registration lays them, on the mesh or off it: that offset is
-// what makes up for the proportions.
+// A character whose markers have the file's names is registered by them, and keeps where each sits on it. Those of an actor
+// of other proportions stay with their tetrahedron, at the place where registration lays them, inside or out: that offset is what
+// makes up for the proportions. Markers of other names are bound where registration lays them.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -15,17 +15,13 @@
 #include "app/author/preview.h"
 #include "app/export/png.h"
 #include "app/numbers.h"
-#include "app/session.h"
 #include "app/text_file.h"
 #include "app/ui/character_editor.h"
 #include "app/ui/window.h"
 #include "platform/camera.h"
-#include "platform/linux/clock.h"
 
 namespace nt {
 namespace {
-
-constexpr int64_t kFramePeriod_ns = 1'000'000'000 / 60;
 
 bool exists(const std::string& path) {
   std::error_code unused;
@@ -129,13 +125,7 @@ void edit_character(const std::string& path, const Character& character, const C
                   options.full_screen ? WindowMode::full_screen : WindowMode::large);
   CharacterEditor editor(*display, std::filesystem::path(path).filename().string(), character, corrections,
                          [&](const Character& changed, const Corrections& by) { save_character(path, changed, by); });
-  int64_t last_ns = steady_now_ns();
-  for (bool more = true; more && !interrupted();) {
-    const int64_t now_ns = steady_now_ns();
-    more = editor.frame(static_cast<float>(now_ns - last_ns) * 1e-9f);
-    last_ns = now_ns;
-    sleep_until_ns(now_ns + kFramePeriod_ns);
-  }
+  run(editor);
 }
 
 }  // namespace nt

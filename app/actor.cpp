@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/ui/posed_character.h"
 #include "core/motion/inbetween.h"
 
 namespace nt {
@@ -67,17 +68,8 @@ void Actor::pose(float t, float dt_s, const Pane& pane) {
 void Actor::draw(Scene& scene) const {
   if (!posed_) return;
   const float gone = static_cast<float>(std::clamp(missed_ - kHeldFrames, 0, kFadingFrames)) / kFadingFrames;
-  const Character& worn = character();
-  Picture texture = worn.texture;
-  texture.id = kFirstCharacterPicture + static_cast<uint32_t>(costume_);
   const Colour tint{1, 1, 1, 1 + (kFadedAlpha - 1) * gone};
-  const Retarget& posed = retarget();
-  if (worn.solid()) {
-    scene.solid(texture, posed.vertices(), posed.solid().heights(), posed.solid().normals(), worn.texcoords,
-                worn.triangles, tint);
-  } else {
-    scene.mesh(texture, posed.vertices(), worn.texcoords, worn.triangles, tint);
-  }
+  add_posed(scene, character(), retarget(), kFirstCharacterPicture + static_cast<uint32_t>(costume_), tint);
 }
 
 }  // namespace nt

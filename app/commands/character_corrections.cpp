@@ -56,8 +56,7 @@ void add_correction_options(CLI::App& command, CorrectionOptions& options) {
   command.add_flag("--list", options.list, "print every control point and how sure it is (--json: for machines)");
   command.add_flag("--json", options.json, "--list as JSON");
   command.add_flag("--edit", options.edit, "open a window: drag points, draw the midline, place fins, test-swim, save");
-  command.add_option("--window-size", options.window_size, "of --edit (default 1280x720)")->type_name("WxH");
-  command.add_flag("--fullscreen", options.full_screen, "--edit on the whole screen, as on one of 800x480");
+  add_window_options(command, options.window_size, options.full_screen);
 }
 
 Corrections corrections_for(const CorrectionOptions& options, const std::string& character_path) {

@@ -2,6 +2,7 @@
 #include "app/take/edited.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "platform/camera.h"
 
@@ -14,7 +15,35 @@ Take open_take(const std::string& path) {
   return take;
 }
 
-// -1: all.
+RecordedMotion motion_of(const std::vector<TakeFrame>& frames) {
+  RecordedMotion recorded;
+  recorded.motions.reserve(frames.size());
+  for (const TakeFrame& frame : frames) {
+    recorded.motions.push_back(frame.motion);
+    if (recorded.init_len == 0) recorded.init_len = frame.init_len;
+  }
+  return recorded;
+}
+
+EditedTake read_fish(Take& take, int fish, bool edits) {
+  const std::vector<TakeFrame> frames = take.frames(fish);
+  RecordedMotion recorded = motion_of(frames);
+  EditedTake result{take.info(), fish_shape(frames), recorded.init_len, {}};
+  result.clip = apply_edits(std::move(recorded.motions), straight_motion(take.info().u_num, take.info().l_num),
+                            edits ? parsed(take.edits()) : std::vector<Edit>{});
+  return result;
+}
+
+}  // namespace
+
+RecordedMotion recorded_motion(Take& take, int fish) { return motion_of(take.frames(fish)); }
+
+std::vector<Edit> parsed(const std::vector<std::string>& lines) {
+  std::vector<Edit> edits;
+  for (const std::string& line : lines) edits.push_back(parse_edit(line));
+  return edits;
+}
+
 std::vector<int> choose_fish(Take& take, const std::string& path, int wanted) {
   const std::vector<int> fish = take.fish();
   if (fish.empty()) throw UserError(path + ": the take is empty");
@@ -26,23 +55,6 @@ std::vector<int> choose_fish(Take& take, const std::string& path, int wanted) {
   }
   throw UserError(path + ": there is no fish " + std::to_string(wanted) + " in it (there are: " + there + ")", 2);
 }
-
-EditedTake read_fish(Take& take, int fish, bool edits) {
-  const std::vector<TakeFrame> frames = take.frames(fish);
-  EditedTake result{take.info(), fish_shape(frames), 0, {}};
-  std::vector<Motion> motions;
-  for (const TakeFrame& frame : frames) {
-    motions.push_back(frame.motion);
-    if (result.init_len == 0) result.init_len = frame.init_len;
-  }
-  std::vector<Edit> list;
-  if (edits)
-    for (const std::string& line : take.edits()) list.push_back(parse_edit(line));
-  result.clip = apply_edits(std::move(motions), straight_motion(take.info().u_num, take.info().l_num), list);
-  return result;
-}
-
-}  // namespace
 
 EditedTake load_take(const std::string& path, int fish, bool edits) {
   Take take = open_take(path);

@@ -14,6 +14,16 @@ struct EditedTake {
   Clip clip;
 };
 
+// A fish's motion as it was recorded.
+struct RecordedMotion {
+  std::vector<Motion> motions;
+  float init_len = 0;  // its length in the first frame that has one, pixels; 0: never seen
+};
+RecordedMotion recorded_motion(Take& take, int fish);
+std::vector<Edit> parsed(const std::vector<std::string>& lines);
+// `wanted` -1: all. At least one; throws UserError where there is no such fish; `path` is for the message.
+std::vector<int> choose_fish(Take& take, const std::string& path, int wanted);
+
 // Opens the take and says on stderr where it had to be recovered. `fish` -1: the first one. `edits` false: as recorded.
 // Throws UserError: no such fish, edits that do not fit.
 EditedTake load_take(const std::string& path, int fish, bool edits);

@@ -112,7 +112,7 @@ void check_bones(const Edit& edit, const Motion& motion) {
                     2);
 }
 
-void apply(const Edit& edit, const Motion& rest, Clip& clip) {
+void change(const Edit& edit, const Motion& rest, Clip& clip) {
   const auto first = static_cast<std::size_t>(edit.first), last = static_cast<std::size_t>(edit.last);
   const int r = static_cast<int>(edit.first);
   std::vector<MotionProperty> what;
@@ -199,14 +199,16 @@ std::vector<Edit> read_edits(const std::string& path) {
   return edits;
 }
 
+void apply_edit(const Edit& edit, const Motion& rest, Clip& clip) {
+  check_frames(edit, clip.motions.size());
+  if (clip.motions.empty()) return;
+  check_bones(edit, clip.motions.front());
+  change(edit, rest, clip);
+}
+
 Clip apply_edits(std::vector<Motion> recorded, const Motion& rest, std::span<const Edit> edits) {
   Clip clip{std::move(recorded), {}};
-  for (const Edit& edit : edits) {
-    check_frames(edit, clip.motions.size());
-    if (clip.motions.empty()) break;
-    check_bones(edit, clip.motions.front());
-    apply(edit, rest, clip);
-  }
+  for (const Edit& edit : edits) apply_edit(edit, rest, clip);
   return clip;
 }
 

@@ -40,6 +40,7 @@ struct Clip {
 };
 
 // `rest`: the rest pose M_0 with the same bones. Throws UserError for frames or bones that the motion does not have.
+void apply_edit(const Edit& edit, const Motion& rest, Clip& clip);
 Clip apply_edits(std::vector<Motion> recorded, const Motion& rest, std::span<const Edit> edits);
 
 }  // namespace nt

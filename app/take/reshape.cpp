@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/take/reshape.h"
 
-#include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
 
@@ -30,21 +29,29 @@ std::vector<MotionProperty> all_properties(const Motion& m) {
 }
 
 // min sum (x - y)^2 + lambda sum (second difference of x)^2; the half-power period is 2 pi lambda^(1/4) frames.
-Eigen::VectorXd whittaker(const Eigen::VectorXd& y, double frames) {
-  const Eigen::Index n = y.size();
+// The matrix has five diagonals: L D L^T with two below the main one, e and f, in one pass; y becomes x.
+void whittaker(std::vector<double>& y, double frames) {
+  const std::size_t n = y.size();
   const double lambda = std::pow(frames / (2 * 3.14159265358979), 4);
-  if (n < 3 || lambda <= 0) return y;
-  Eigen::SparseMatrix<double> difference(n - 2, n), system(n, n);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i + 2 < n; ++i) {
-    entries.emplace_back(i, i, 1.0);
-    entries.emplace_back(i, i + 1, -2.0);
-    entries.emplace_back(i, i + 2, 1.0);
+  if (n < 3 || lambda <= 0) return;
+  std::vector<double> d(n, 1.0), e(n, 0.0), f(n, 0.0);
+  for (std::size_t i = 0; i + 2 < n; ++i) {
+    d[i] += lambda, d[i + 1] += 4 * lambda, d[i + 2] += lambda;
+    e[i] -= 2 * lambda, e[i + 1] -= 2 * lambda;
+    f[i] += lambda;
   }
-  difference.setFromTriplets(entries.begin(), entries.end());
-  system.setIdentity();
-  system += lambda * Eigen::SparseMatrix<double>(difference.transpose() * difference);
-  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(system).solve(y);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i >= 1) d[i] -= e[i - 1] * e[i - 1] * d[i - 1], e[i] -= f[i - 1] * e[i - 1] * d[i - 1];
+    if (i >= 2) d[i] -= f[i - 2] * f[i - 2] * d[i - 2];
+    e[i] /= d[i], f[i] /= d[i];
+    if (i >= 1) y[i] -= e[i - 1] * y[i - 1];
+    if (i >= 2) y[i] -= f[i - 2] * y[i - 2];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    y[i] /= d[i];
+    if (i + 1 < n) y[i] -= e[i] * y[i + 1];
+    if (i + 2 < n) y[i] -= f[i] * y[i + 2];
+  }
 }
 
 bool is_good(const Motion& m, float confidence) {
@@ -55,13 +62,12 @@ bool is_good(const Motion& m, float confidence) {
 }  // namespace
 
 void smooth(std::vector<Motion>& m, MotionProperty u, std::size_t first, std::size_t last, double frames) {
-  Eigen::VectorXd y(static_cast<Eigen::Index>(m.size()));
-  for (std::size_t i = 0; i < m.size(); ++i) y[static_cast<Eigen::Index>(i)] = value_of(m[i], u);
-  const Eigen::VectorXd x = whittaker(y, frames);
+  std::vector<double> x;
+  for (const Motion& motion : m) x.push_back(value_of(motion, u));
+  whittaker(x, frames);
   for (std::size_t i = first; i <= last; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const float part = share(i, first, last, m.size());
-    set_value(m[i], u, static_cast<float>(y[at] + part * (x[at] - y[at])));
+    const double y = value_of(m[i], u), part = share(i, first, last, m.size());
+    set_value(m[i], u, static_cast<float>(y + part * (x[i] - y)));
   }
 }
 

@@ -123,6 +123,7 @@ void EditorWindow::save() {
 }
 
 void EditorWindow::leave() {
+  if (saves_by_itself() && unsaved() && !asking_) save();
   if (unsaved() && !asking_) asking_ = true;
   else quit_ = true;
 }

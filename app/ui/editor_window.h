@@ -41,6 +41,7 @@ class EditorWindow {
   virtual bool unsaved() const = 0;
   virtual void write() = 0;  // saves; may throw UserError: then it is shown
   virtual std::string saved_words() const = 0;
+  virtual bool saves_by_itself() const { return false; }  // then nobody is asked, unless it fails
 
   // Buttons of such a height that `units` of them, gaps included, fit into the window's height.
   void use_units(float units);

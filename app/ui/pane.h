@@ -41,6 +41,9 @@ inline Pane beside(Pane left) {
 enum PictureId : uint32_t {
   kCameraPicture = 1,
   kBackdropPicture = 2,
+  kStripPicture = 3,  // the take editor's confidences, of the whole clip and of what the plot shows
+  kBandPicture = 4,
+  kPlainPicture = 5,  // one white pixel, for areas of one colour
   kFirstTextPicture = 16,
   kFirstNumberPicture = 32,
   kFirstCharacterPicture = 64  // one a character

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/ui/window.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 
 #include "platform/camera.h"
@@ -19,6 +20,11 @@ std::unique_ptr<Display> open_window(const std::string& title, int width, int he
         "with 'neontetra animate'");
   }
   return display;
+}
+
+void add_window_options(CLI::App& command, std::string& size, bool& full_screen) {
+  command.add_option("--window-size", size, "of the window (default " + size + ")")->type_name("WxH");
+  command.add_flag("--fullscreen", full_screen, "on the whole screen, as on one of 800x480");
 }
 
 }  // namespace nt

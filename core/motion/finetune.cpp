@@ -17,12 +17,19 @@ float falloff(int i, int r, int end) {
 EditWindow edit_window(std::span<const Motion> sequence, MotionProperty u, float rest, int r, float edited) {
   const auto side_of = [&](int k) { return value_of(sequence[static_cast<std::size_t>(k)], u) - rest; };
   const float own = side_of(r) != 0.0f ? side_of(r) : edited - rest;
-  EditWindow window{r, r};
-  if (own == 0.0f) return window;
-  const auto same_side = [&](int k) { return own > 0.0f ? side_of(k) >= 0.0f : side_of(k) <= 0.0f; };
-  while (window.p > 0 && same_side(window.p - 1)) --window.p;
-  while (window.q + 1 < static_cast<int>(sequence.size()) && same_side(window.q + 1)) ++window.q;
-  return window;
+  if (own == 0.0f) return {r, r};
+  // As far as it goes on that side; from the rest pose over what lies on it too, until it is left.
+  const auto end_of_run = [&](int step) {
+    bool resting = side_of(r) == 0.0f;
+    int end = r;
+    for (int k = r + step; k >= 0 && k < static_cast<int>(sequence.size()); end = k, k += step) {
+      const float side = side_of(k);
+      if (side == 0.0f ? !resting : (side > 0.0f) != (own > 0.0f)) break;
+      resting = side == 0.0f;
+    }
+    return end;
+  };
+  return {end_of_run(-1), end_of_run(1)};
 }
 
 EditWindow path_window(int frames, int r, int radius) {

@@ -8,7 +8,10 @@
 // - Eq 18 pulls angles to 0 where it reverses a motion (I = 0); here it is written about the rest pose:
 //   N_i = M_0 + I (1-f)(M_i - M_0) + f (M' - M_0), the same as Eq 18 for I = 1.
 // - Eq 21 divides by zero where r = p or r = q: f(r) = 1, and that side is empty.
-// - r itself on the rest pose (M_r = M_0) has no side of its own: the side the edit takes it to is the window's.
+// - A frame exactly on the rest pose is on no side and ends the window: fins that were not seen lie there for long, and an
+//   edit of one stroke must not reach through them to the next. Measured angles never are, so [F]'s own cases stay.
+// - r itself on the rest pose (M_r = M_0) has no side of its own: the side the edit takes it to is the window's, which
+//   goes on over what rests on both sides of r up to the end of the next stroke.
 // - dir and centre, which [F] leaves out, have no rest pose. Their window is given, and the edit is a displacement that
 //   fades out over it: N_i = M_i + f (M' - M_r).
 // Cost: O(frames of the window); no memory.

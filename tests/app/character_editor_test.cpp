@@ -2,16 +2,10 @@
 // The editor's window on SDL's driver without a screen, with SDL's own mouse and finger events.
 #include "app/ui/character_editor.h"
 
-#include <GLES3/gl3.h>
-#include <SDL2/SDL.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
 #include "app/author/character_file.h"
 #include "app/author/picture_character.h"
-#include "platform/camera.h"
 #include "tests/app/straight_rig.h"
+#include "tests/app/window_driver.h"
 
 namespace nt {
 namespace {
@@ -25,93 +19,31 @@ const LoadedCharacter& carp() {
 
 PointId id(const char* name) { return *point_named(name); }
 
-class CharacterEditorTest : public ::testing::TestWithParam<DisplaySize> {
+class CharacterEditorTest : public test::WindowDriver {
  protected:
   void SetUp() override {
-    setenv("SDL_VIDEODRIVER", "offscreen", 1);
-    size_ = GetParam();
-    try {
-      // The offscreen driver has a screen of its own size; the window may not exceed it.
-      display_ = open_sdl_display("test", size_.width, size_.height);
-    } catch (const UserError& error) {
-      GTEST_SKIP() << error.what();
-    }
-    size_ = display_->size();
+    WindowDriver::SetUp();
+    if (!display_) return;
     editor_ = std::make_unique<CharacterEditor>(*display_, "carp.ntchar", carp().character(), Corrections{},
                                                 [this](const Character& c, const Corrections& by) { save(c, by); });
     frames(3);
   }
   void TearDown() override {
     editor_.reset();
-    display_.reset();
-    unsetenv("SDL_VIDEODRIVER");
+    WindowDriver::TearDown();
   }
+  EditorWindow& shown() override { return *editor_; }
   void save(const Character& character, const Corrections& by) {
     if (disk_is_full_) throw UserError("cannot write carp.ntchar: the disk is full");
     saved_rig_ = RiggedFigure(character).found();
     saved_ = by;
     ++saves_;
   }
-
-  bool frames(int count) {
-    bool more = true;
-    for (int i = 0; i < count; ++i) more = editor_->frame(1.0f / 60);
-    return more;
-  }
-  void mouse(Uint32 type, Vec2 at) {
-    SDL_Event event{};
-    event.type = type;
-    if (type == SDL_MOUSEMOTION) {
-      event.motion.x = static_cast<int>(at.x), event.motion.y = static_cast<int>(at.y);
-    } else {
-      event.button.button = SDL_BUTTON_LEFT;
-      event.button.x = static_cast<int>(at.x), event.button.y = static_cast<int>(at.y);
-    }
-    SDL_PushEvent(&event);
-  }
-  void finger(Uint32 type, Vec2 at, SDL_FingerID which = 5) {
-    SDL_Event event{};
-    event.type = type;
-    event.tfinger.fingerId = which;
-    event.tfinger.x = at.x / static_cast<float>(size_.width), event.tfinger.y = at.y / static_cast<float>(size_.height);
-    SDL_PushEvent(&event);
-  }
-  void key(SDL_Keycode code, Uint16 mod = 0) {
-    SDL_Event event{};
-    event.type = SDL_KEYDOWN;
-    event.key.keysym.sym = code, event.key.keysym.mod = mod;
-    SDL_PushEvent(&event);
-    frames(2);
-  }
-  void tap(Vec2 at) {
-    finger(SDL_FINGERDOWN, at);
-    finger(SDL_FINGERUP, at);
-    frames(6);
-  }
-  void drag(Vec2 from, Vec2 to, bool by_finger) {
-    const auto go = [&](int phase, Vec2 at) {
-      if (by_finger) finger(phase == 0 ? SDL_FINGERDOWN : phase == 1 ? SDL_FINGERMOTION : SDL_FINGERUP, at);
-      else mouse(phase == 0 ? SDL_MOUSEBUTTONDOWN : phase == 1 ? SDL_MOUSEMOTION : SDL_MOUSEBUTTONUP, at);
-      frames(2);
-    };
-    if (!by_finger) mouse(SDL_MOUSEMOTION, from), frames(1);
-    go(0, from);
-    for (int i = 1; i <= 8; ++i) go(1, lerp(from, to, static_cast<float>(i) / 8));
-    go(2, to);
-    frames(3);
-  }
-  std::vector<uint8_t> picture() {
-    std::vector<uint8_t> rgba(static_cast<std::size_t>(size_.width * size_.height * 4));
-    glReadPixels(0, 0, size_.width, size_.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-    return rgba;
-  }
   // The middle of the n-th of five buttons over the canvas.
   Vec2 bar_button(int n) const {
     return {editor_->canvas().size.x * (static_cast<float>(n) + 0.5f) / 5, 0.5f * editor_->canvas().corner.y};
   }
 
-  DisplaySize size_;
-  std::unique_ptr<Display> display_;
   std::unique_ptr<CharacterEditor> editor_;
   Rig saved_rig_;
   Corrections saved_;
@@ -237,7 +169,7 @@ TEST_P(CharacterEditorTest, TheLastRowOfButtonsIsOnTheScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, CharacterEditorTest, ::testing::Values(DisplaySize{960, 600}, DisplaySize{800, 480}),
-                         [](const auto& size) { return std::to_string(size.param.width); });
+                         test::size_name);
 
 }  // namespace
 }  // namespace nt

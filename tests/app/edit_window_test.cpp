@@ -3,70 +3,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include <opencv2/imgcodecs.hpp>
-
-#include "core/base/vec2.h"
-#include "tests/app/run_binary.h"
+#include "tests/app/screen_script.h"
 
 namespace nt {
 namespace {
 
 const std::string kCarp = NEONTETRA_ASSETS "/characters/carp.png";
 
-class EditWindow : public ::testing::Test {
+class EditWindow : public test::ScreenScript {
  protected:
   void SetUp() override {
-    for (const char* program : {"xvfb-run", "xdotool", "ffmpeg"}) {
-      const std::string there = std::string("command -v ") + program + " >/dev/null 2>&1";
-      if (std::system(there.c_str()) != 0) GTEST_SKIP() << "no " << program;
-    }
+    ScreenScript::SetUp();
+    if (IsSkipped()) return;
     ASSERT_EQ(neontetra("character " + kCarp + " --out " + character_).exit_code, 0);
   }
-
-  // Opens the editor on a screen of 800x480 and runs `does`, a shell script with $program, and shot NAME for a picture.
-  Outcome edit(const std::string& does) {
-    std::ofstream(dir_ / "script.sh")
-        << "shot() { ffmpeg -loglevel error -y -f x11grab -video_size 800x480 -i $DISPLAY -frames:v 1 " << (dir_ / "")
-        << "$1.png </dev/null; }\n"
-        << "timeout 60 " NEONTETRA_BINARY " character --edit " << character_ << " 2>" << (dir_ / "err")
-        << " &\n"
-           "program=$!\n"
-           "window=$(timeout 20 xdotool search --sync --onlyvisible --name '^neontetra: ')\n"
-           "xdotool windowfocus $window mousemove 5 300\n"
-           "sleep 2\n"
-        << does << "\nwait $program\n";
-    const std::string command =
-        "xvfb-run -a -s '-screen 0 800x480x24' bash " + (dir_ / "script.sh") + " >" + (dir_ / "out") + " 2>/dev/null";
-    const int status = std::system(command.c_str());
-    Outcome outcome;
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    outcome.err = read_text(dir_ / "err");
-    return outcome;
-  }
-
-  // Of the figure's part of the window; beside it a legend shows the same colours.
-  cv::Mat picture(const std::string& name) const {
-    const cv::Mat whole = cv::imread(dir_ / (name + ".png"));
-    return whole.cols < 510 || whole.rows < 440 ? cv::Mat() : whole(cv::Rect(0, 56, 510, 384)).clone();
-  }
-
-  // The middle of all pixels of this colour.
-  static std::optional<Vec2> find(const cv::Mat& bgr, cv::Vec3b colour) {
-    double x = 0, y = 0, n = 0;
-    for (int row = 0; row < bgr.rows; ++row) {
-      for (int column = 0; column < bgr.cols; ++column) {
-        if (cv::norm(bgr.at<cv::Vec3b>(row, column), colour) < 2) x += column, y += row, ++n;
-      }
-    }
-    if (n < 20) return std::nullopt;
-    return Vec2{static_cast<float>(x / n), static_cast<float>(y / n)};
-  }
+  Outcome edit(const std::string& does) { return on_screen("character --edit " + character_, does); }
 
   Vec2 listed(const std::string& point) const {
     const Outcome run = neontetra("character " + character_ + " --list --json");
@@ -75,7 +29,6 @@ class EditWindow : public ::testing::Test {
     return {at["x"], at["y"]};
   }
 
-  TempDir dir_;
   std::string character_ = dir_ / "carp.ntchar";
 };
 

@@ -131,6 +131,21 @@ TEST(FineTune, AFrameOnTheRestPoseTakesTheSideOfTheEdit) {
   EXPECT_EQ(none.q, 2);
 }
 
+// A fin that opens twice and lies folded, unseen, in between: an edit of one stroke leaves the other alone.
+TEST(FineTune, FoldedFinsPartTheStrokes) {
+  const MotionProperty fin{Kind::l_fin, 0};
+  std::vector<float> angles(60, kFoldedLeftFin);
+  for (int i : {10, 11, 12, 13, 40, 41, 42, 43}) angles[static_cast<std::size_t>(i)] = kFoldedLeftFin - 0.8f;
+  const EditWindow window = edit_window(sequence_of(angles, fin), fin, kFoldedLeftFin, 41, kFoldedLeftFin - 0.5f);
+  EXPECT_EQ(window.p, 40);
+  EXPECT_EQ(window.q, 43);
+  // A stroke made where there was none reaches to the next ones' ends and no farther.
+  angles[2] = kFoldedLeftFin - 0.3f, angles[50] = kFoldedLeftFin - 0.3f;
+  const EditWindow made = edit_window(sequence_of(angles, fin), fin, kFoldedLeftFin, 25, kFoldedLeftFin - 0.5f);
+  EXPECT_EQ(made.p, 10);
+  EXPECT_EQ(made.q, 43);
+}
+
 TEST(FineTune, APathEditMovesTheNeighboursAlong) {
   const MotionProperty x{Kind::centre_x, 0};
   std::vector<float> line(21);

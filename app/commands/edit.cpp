@@ -45,8 +45,8 @@ void replace_list(const Options& options) {
   Seam seam;
   std::size_t frames = 0;
   for (const int fish : take.fish()) {  // edits that do not fit are not kept
-    const Clip clip =
-        apply_edits(recorded_motion(take, fish).motions, straight_motion(take.info().u_num, take.info().l_num), edits);
+    const Clip clip = apply_edits(recorded_motion(take, fish).motions,
+                                  straight_motion(take.info().u_num, take.info().l_num), edits_for(edits, fish));
     seam = clip.seam, frames = clip.motions.size();
   }
   take.set_edits(lines_of(edits));

@@ -30,7 +30,7 @@ EditedTake read_fish(Take& take, int fish, bool edits) {
   RecordedMotion recorded = motion_of(frames);
   EditedTake result{take.info(), fish_shape(frames), recorded.init_len, {}};
   result.clip = apply_edits(std::move(recorded.motions), straight_motion(take.info().u_num, take.info().l_num),
-                            edits ? parsed(take.edits()) : std::vector<Edit>{});
+                            edits ? edits_for(parsed(take.edits()), fish) : std::vector<Edit>{});
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -50,6 +51,7 @@ const Form& form_of(const std::string& word) {
 }
 
 constexpr int64_t kLastFrame = 100'000'000;
+constexpr int64_t kMostFish = 1'000'000;  // numbers of fish that came and went
 
 void parse_range(const Form& form, const std::string& text, Edit& edit) {
   const std::size_t colon = text.find(':');
@@ -82,6 +84,9 @@ void parse_argument(const Form& form, char kind, const std::string& text, Edit& 
 }
 
 void check_meaning(const Edit& edit) {
+  if (edit.fish >= 0 && edit.renumbers())
+    throw UserError(
+        "trim, loop and retime are for all fish of a take; leave out 'fish " + std::to_string(edit.fish) + "'", 2);
   if (edit.what.empty()) return;
   const bool path = properties_of(edit.what).front().is_path();
   if (edit.kind == Kind::set && path)
@@ -156,8 +161,13 @@ Edit parse_edit(const std::string& line) {
   std::istringstream words(line);
   std::string word;
   words >> word;
-  const Form& form = form_of(word);
   Edit edit;
+  if (word == "fish") {
+    if (!(words >> word)) throw UserError("expected fish NUMBER EDIT", 2);
+    edit.fish = static_cast<int>(parse_integer("fish", word, 0, kMostFish));
+    if (!(words >> word)) throw UserError("expected fish NUMBER EDIT", 2);
+  }
+  const Form& form = form_of(word);
   edit.kind = static_cast<Kind>(&form - kForms);
   for (const char* kind = form.arguments; *kind != 0; ++kind) {
     if (!(words >> word)) throw UserError(std::string("expected ") + form.usage, 2);
@@ -170,7 +180,8 @@ Edit parse_edit(const std::string& line) {
 
 std::string to_line(const Edit& edit) {
   const Form& form = kForms[static_cast<std::size_t>(edit.kind)];
-  std::string line = form.word;
+  std::string line = edit.fish < 0 ? "" : "fish " + std::to_string(edit.fish) + " ";
+  line += form.word;
   for (const char* kind = form.arguments; *kind != 0; ++kind) {
     line += ' ';
     if (*kind == 'p' || *kind == 'g') line += edit.what;
@@ -180,6 +191,13 @@ std::string to_line(const Edit& edit) {
     if (*kind == 'n') line += std::to_string(edit.radius);
   }
   return line;
+}
+
+std::vector<Edit> edits_for(std::span<const Edit> edits, int fish) {
+  std::vector<Edit> own;
+  std::copy_if(edits.begin(), edits.end(), std::back_inserter(own),
+               [&](const Edit& edit) { return edit.concerns(fish); });
+  return own;
 }
 
 std::vector<Edit> read_edits(const std::string& path) {

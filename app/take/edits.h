@@ -3,6 +3,7 @@
 //
 // Line -> Edit and back; a list of edits on the motions of one fish -> a Clip. Edits are applied in order, each to what
 // the one before has left. Frames count from 0 in the sequence as it stands then (trim and loop number anew).
+// An edit is for all fish of the take, or for one: those that number frames anew are always for all.
 // docs/FORMATS.md lists the lines. Errors: UserError that names the line and the nearest valid word.
 // Source: [F] section 6 for `set`; the others go beyond the paper.
 #pragma once
@@ -22,10 +23,17 @@ struct Edit {
   int64_t first = 0, last = 0;  // frames, both inside; set and move: first is the frame
   double value = 0;             // angle, position, strength, factor, confidence, blended frames, speed
   int64_t radius = 0;           // move: frames to either side
+  int fish = -1;                // -1: all
+
+  bool concerns(int one) const { return fish < 0 || fish == one; }
+  // Frames have other numbers after it.
+  bool renumbers() const { return kind >= Kind::trim; }
 };
 
 Edit parse_edit(const std::string& line);
 std::string to_line(const Edit& edit);
+// Those that are for this fish.
+std::vector<Edit> edits_for(std::span<const Edit> edits, int fish);
 // A text file of edits: empty lines and what follows a # are passed over.
 std::vector<Edit> read_edits(const std::string& path);
 

@@ -19,24 +19,21 @@ constexpr double kSure = 0.5;
 // Finer than a hand is, and short in a text file.
 constexpr double kAngleSteps = 1e4, kPathSteps = 1e2;  // a radian, a pixel
 
-bool renumbers(const Edit& edit) {
-  return edit.kind == Kind::trim || edit.kind == Kind::loop || edit.kind == Kind::retime;
-}
-
-// A position is set by two edits that are one step.
-std::size_t last_step(const std::vector<Edit>& edits) {
-  if (edits.size() < 2) return edits.size();
-  const Edit &a = edits[edits.size() - 2], &b = edits.back();
+// Of the first `count` edits how many are the last step: a position is set by two.
+std::size_t last_step(const std::vector<Edit>& edits, std::size_t count) {
+  if (count < 2) return count;
+  const Edit &a = edits[count - 2], &b = edits[count - 1];
   const bool pair = a.kind == Kind::move && b.kind == Kind::move && a.what == "centre_x" && b.what == "centre_y";
-  return pair && a.first == b.first && a.radius == b.radius ? 2 : 1;
+  return pair && a.first == b.first && a.radius == b.radius && a.fish == b.fish ? 2 : 1;
 }
 
 }  // namespace
 
-ClipEditor::ClipEditor(std::vector<Motion> recorded, std::vector<Edit> edits, double fps)
+ClipEditor::ClipEditor(std::vector<Motion> recorded, std::vector<Edit> edits, double fps, int fish)
     : recorded_(std::move(recorded)),
       rest_(straight_motion(recorded_.front().u_num, recorded_.front().l_num)),
       fps_(fps),
+      fish_(fish),
       edits_(std::move(edits)),
       radius_(std::max(2, static_cast<int>(std::lround(fps / 2)))) {
   apply_list();
@@ -46,7 +43,7 @@ const Motion& ClipEditor::recorded_at(int64_t frame) const {
   auto at = static_cast<double>(frame);
   for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit) {
     if (edit->kind == Kind::retime) at *= edit->value;
-    else if (renumbers(*edit)) at += static_cast<double>(edit->first);
+    else if (edit->renumbers()) at += static_cast<double>(edit->first);
   }
   return recorded_[std::min(static_cast<std::size_t>(std::llround(at)), recorded_.size() - 1)];
 }
@@ -78,6 +75,7 @@ Edit ClipEditor::edit_of(const Setting& setting) const {
   edit.what = name;
   edit.first = edit.last = frame_;
   edit.radius = property.is_path() ? radius_ : 0;
+  edit.fish = fish_;
   const bool angle = property.kind != Property::centre_x && property.kind != Property::centre_y;
   const double steps = angle ? kAngleSteps : kPathSteps;
   edit.value = std::round(static_cast<double>(setting.value) * steps) / steps;
@@ -121,7 +119,7 @@ void ClipEditor::add(const std::vector<Edit>& step) {
   Clip next = clip_;
   for (const Edit& edit : step) apply_edit(edit, rest_, next);
   clip_ = std::move(next);
-  if (std::any_of(step.begin(), step.end(), renumbers)) mend_frames();
+  if (std::any_of(step.begin(), step.end(), [](const Edit& edit) { return edit.renumbers(); })) mend_frames();
   edits_.insert(edits_.end(), step.begin(), step.end());
   changed();
 }
@@ -133,7 +131,7 @@ void ClipEditor::commit(const Edit& edit) {
 
 void ClipEditor::apply_list() {
   const auto frames_before = frames();
-  clip_ = apply_edits(recorded_, rest_, edits_);
+  clip_ = apply_edits(recorded_, rest_, fish_ < 0 ? edits_ : edits_for(edits_, fish_));
   if (frames() != frames_before) mend_frames();
 }
 
@@ -149,6 +147,7 @@ Edit ClipEditor::of_range(Kind kind, const char* what, double value) const {
   Edit edit;
   edit.kind = kind, edit.what = what, edit.value = value;
   edit.first = range_.first, edit.last = range_.last;
+  if (!edit.renumbers()) edit.fish = fish_;
   return edit;
 }
 
@@ -179,16 +178,24 @@ void ClipEditor::retime(double speed) {
   commit(edit);
 }
 
+std::size_t ClipEditor::last_own() const {
+  std::size_t end = edits_.size();
+  while (end > 0 && !concerns_us(edits_[end - 1])) --end;
+  return end;
+}
+
 void ClipEditor::undo() {
   if (holding_) {  // what is held was not yet a step
     drag_to({});
     release();
     return;
   }
-  if (edits_.empty()) return;
-  const auto first = edits_.end() - static_cast<std::ptrdiff_t>(last_step(edits_));
-  undone_.emplace_back(first, edits_.end());
-  edits_.erase(first, edits_.end());
+  const std::size_t end = last_own();
+  if (end == 0) return;
+  const auto last = edits_.begin() + static_cast<std::ptrdiff_t>(end);
+  const auto first = last - static_cast<std::ptrdiff_t>(last_step(edits_, end));
+  undone_.emplace_back(first, last);
+  edits_.erase(first, last);
   apply_list();
   changed();
 }
@@ -203,8 +210,9 @@ std::vector<int64_t> ClipEditor::keys(MotionProperty property) const {
   char name[kPropertyNameSize];
   property_name(property, name);
   std::vector<int64_t> frames;
-  for (auto edit = edits_.rbegin(); edit != edits_.rend() && !renumbers(*edit); ++edit)
-    if ((edit->kind == Kind::set || edit->kind == Kind::move) && edit->what == name) frames.push_back(edit->first);
+  for (auto edit = edits_.rbegin(); edit != edits_.rend() && !edit->renumbers(); ++edit)
+    if (concerns_us(*edit) && (edit->kind == Kind::set || edit->kind == Kind::move) && edit->what == name)
+      frames.push_back(edit->first);
   return frames;
 }
 

@@ -25,7 +25,8 @@ struct FrameRange {
 class ClipEditor {
  public:
   // `recorded` has a frame at least. Throws UserError for edits that do not fit.
-  ClipEditor(std::vector<Motion> recorded, std::vector<Edit> edits, double fps);
+  // New edits are for `fish`; of the list those for other fish are kept and have no effect. -1: the take has one fish.
+  ClipEditor(std::vector<Motion> recorded, std::vector<Edit> edits, double fps, int fish = -1);
 
   const std::vector<Motion>& motions() const { return clip_.motions; }
   const std::vector<Motion>& recorded() const { return recorded_; }
@@ -71,7 +72,7 @@ class ClipEditor {
   void loop();
   void retime(double speed);
 
-  bool can_undo() const { return !edits_.empty(); }
+  bool can_undo() const { return last_own() > 0; }
   bool can_redo() const { return !undone_.empty(); }
   void undo();
   void redo();
@@ -79,6 +80,8 @@ class ClipEditor {
   std::vector<int64_t> keys(MotionProperty property) const;
 
  private:
+  bool concerns_us(const Edit& edit) const { return fish_ < 0 || edit.concerns(fish_); }
+  std::size_t last_own() const;  // one past the last edit that concerns this fish; 0: there is none
   void add(const std::vector<Edit>& step);
   void commit(const Edit& edit);
   void apply_list();
@@ -91,6 +94,7 @@ class ClipEditor {
   std::vector<Motion> recorded_;
   Motion rest_;
   double fps_;
+  int fish_;
   std::vector<Edit> edits_;
   std::vector<std::vector<Edit>> undone_;
   Clip clip_;

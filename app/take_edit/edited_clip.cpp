@@ -10,7 +10,8 @@
 namespace nt {
 
 EditedClip load_clip(Take& take, const std::string& path, int fish) {
-  RecordedMotion recorded = recorded_motion(take, choose_fish(take, path, fish).front());
+  const int chosen = choose_fish(take, path, fish).front();
+  RecordedMotion recorded = recorded_motion(take, chosen);
   if (recorded.init_len <= 0) throw UserError(path + ": not one frame with a pose, nothing to edit");
   give_back_freed_memory();  // the take's rows: 15 MB of ten minutes
   const TakeInfo& info = take.info();
@@ -18,7 +19,8 @@ EditedClip load_clip(Take& take, const std::string& path, int fish) {
           parsed(take.edits()),
           info.fps,
           recorded.init_len,
-          {static_cast<float>(info.width), static_cast<float>(info.height)}};
+          {static_cast<float>(info.width), static_cast<float>(info.height)},
+          take.fish().size() > 1 ? chosen : -1};
 }
 
 }  // namespace nt

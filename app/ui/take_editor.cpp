@@ -33,7 +33,7 @@ std::string time_of(int64_t frame, double fps) {
 
 TakeEditor::TakeEditor(Display& display, EditedClip clip, const Wardrobe& wardrobe, Save save)
     : EditorWindow(display),
-      editor_(std::move(clip.recorded), std::move(clip.edits), clip.fps),
+      editor_(std::move(clip.recorded), std::move(clip.edits), clip.fps, clip.fish),
       fps_(clip.fps),
       curves_(named_curves(editor_.rest())),
       canvas_(wardrobe, clip.init_len_px, clip.frame_px),

@@ -213,6 +213,27 @@ TEST(ClipEditor, TheFrameStaysWhileSomethingIsHeldAndInsideTheClip) {
   EXPECT_EQ(editor.frame(), 3);
 }
 
+TEST(ClipEditor, EditsOfOtherFishAreKeptAndHaveNoEffect) {
+  std::vector<Edit> edits;
+  for (const char* line : {"fish 2 set tail_angle 45 -1", "set tail_angle 65 -1.1", "fish 1 set tail_angle 85 -1.2"})
+    edits.push_back(parse_edit(line));
+  ClipEditor editor(swimming(kFrames), edits, kFps, 2);
+  EXPECT_EQ(tail_at(editor, 45), -1.0f);
+  EXPECT_EQ(tail_at(editor, 65), -1.1f);
+  EXPECT_EQ(tail_at(editor, 85), value_of(editor.recorded()[85], kTail));
+  editor.go_to(105);
+  drag(editor, kTail, -1.3f);
+  editor.release();
+  EXPECT_EQ(to_line(editor.edits().back()), "fish 2 set tail_angle 105 -1.3");
+  for (int i = 0; i < 3; ++i) editor.undo();
+  EXPECT_FALSE(editor.can_undo());
+  ASSERT_EQ(editor.edits().size(), 1u);
+  EXPECT_EQ(editor.edits()[0].fish, 1);
+  EXPECT_TRUE(same(editor.motions(), editor.recorded()));
+  for (int i = 0; i < 3; ++i) editor.redo();
+  EXPECT_EQ(tail_at(editor, 105), -1.3f);
+}
+
 TEST(ClipEditor, SavedIsWhatWasSaved) {
   ClipEditor editor = editor_of();
   drag(editor, kTail, -1);

@@ -29,9 +29,9 @@ double largest_step(const std::vector<Motion>& m, MotionProperty u) {
 }
 
 TEST(Edits, LinesAreReadBackAsWritten) {
-  for (const char* line :
-       {"set head_angle 1042 0.8666", "set low_axis_angle_15 3 -1.25", "move centre_x 10 130.5 4", "smooth body 0:99 5",
-        "exaggerate low_axis 10:20 1.5", "repair 0:99 0.4", "trim 5:10", "loop 20:60 8", "retime 0.5"})
+  for (const char* line : {"set head_angle 1042 0.8666", "set low_axis_angle_15 3 -1.25", "move centre_x 10 130.5 4",
+                           "smooth body 0:99 5", "exaggerate low_axis 10:20 1.5", "fish 3 set l_fin_angle 7 -2.5",
+                           "repair 0:99 0.4", "trim 5:10", "loop 20:60 8", "retime 0.5"})
     EXPECT_EQ(to_line(parse_edit(line)), line);
 }
 
@@ -40,6 +40,8 @@ TEST(Edits, MistakesAreOneLineWithItsNumber) {
     const char* line;
     const char* words;
   } cases[] = {
+      {"fish 2 trim 0:9", "for all fish"},
+      {"fish x set head_angle 3 1", "fish"},
       {"smoth body 0:9 3", "did you mean 'smooth'"},
       {"set head_angl 3 1", "did you mean 'head_angle'"},
       {"set body 3 1", "unknown 'body'"},

@@ -66,8 +66,8 @@ struct Times {
   std::vector<double> still_ms, edited_ms, applied_ms;
 };
 
-// Pictures with nothing to do, then pictures while a finger pulls the tail to and fro; and the edit alone, without a picture.
-Times measure(nt::TakeEditor& window, nt::Display& display, nt::ClipEditor& model) {
+// Pictures with nothing to do, then pictures while a finger pulls the tail to and fro; and the edit without a picture.
+Times measure(nt::TakeEditor& window, nt::Display& display, nt::ClipEditor& model, nt::Puppet& puppet) {
   Times times;
   const auto frame_ms = [&] {
     const auto start = Clock::now();
@@ -85,10 +85,15 @@ Times measure(nt::TakeEditor& window, nt::Display& display, nt::ClipEditor& mode
   finger(SDL_FINGERUP, tail, display.size());
   for (int i = 0; i < 4; ++i) frame_ms();
   if (window.editor().edits().empty()) throw std::runtime_error("the finger has pulled at nothing");
+  // In the middle of the take: from where the handle is pulled to, by the number that brings it there, to the clip with it.
+  model.go_to(model.frames() / 2);
+  const nt::Motion held = model.motions()[static_cast<std::size_t>(model.frame())];
+  const nt::FigureView view{1.2f, held.centre, {260, 180}, false};
   model.hold(kTail);
   for (int i = 0; i < kPulls; ++i) {
-    const nt::ClipEditor::Setting setting{kTail, -1.5f + 0.5f * std::sin(0.3f * static_cast<float>(i))};
+    const float x = 90 * std::cos(0.02f * static_cast<float>(i)), y = 60 * std::sin(0.3f * static_cast<float>(i));
     const auto start = Clock::now();
+    const nt::ClipEditor::Setting setting{kTail, puppet.value_for(held, kTail, view.to - Vec2{x, y}, view)};
     model.drag_to({&setting, 1});
     times.applied_ms.push_back(ms_since(start));
   }
@@ -121,7 +126,8 @@ void run(int frames, const std::string& character, bool json) {
   window.frame(0);
   const double open_ms = ms_since(start);
   const int64_t open_bytes = nt::resident_bytes() - before_bytes;
-  const Times times = measure(window, *display, model);
+  nt::Puppet puppet(wardrobe, 180);
+  const Times times = measure(window, *display, model, puppet);
   const double smooth_ms = time_of([&] { model.smooth(); }), undo_ms = time_of([&] { model.undo(); });
   const double still = quantile(times.still_ms, 0.5), edited = quantile(times.edited_ms, 0.5);
   const nlohmann::ordered_json out{{"frames", frames},

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/camera_list.h"
 #include "app/nearest_name.h"
 #include "app/text_file.h"
 #include "platform/camera.h"
@@ -66,6 +67,7 @@ Action parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "neontetra " NEONTETRA_VERSION);
   app.require_subcommand(1);
   app.footer(kFooter);
+  add_list_cameras(app);
   Action action;
   for (const auto add : {add_live, add_capture, add_animate, add_takes, add_edit, add_play, add_export, add_character,
                          add_markers, add_bench, add_doctor})
@@ -73,6 +75,8 @@ Action parse_command_line(int argc, const char* const* argv) {
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
+  } catch (const ListCameras&) {
+    return [] { write_text("-", camera_list_text()); };
   } catch (const CLI::CallForVersion& version) {
     return [text = std::string(version.what()) + "\n"] { write_text("-", text); };
   } catch (const CLI::CallForHelp&) {

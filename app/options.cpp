@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/camera_list.h"
 #include "app/nearest_name.h"
 #include "platform/camera.h"
 
@@ -133,8 +134,10 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
   text(
       "-c,--camera", [&o](const std::string& s) { o.camera = parse_camera_spec(s); }, "SPEC",
       "where frames come from: sim[:scene=NAME][,seed=N][,size=WxH][,fps=N][,frames=N] is the simulated tank, "
-      "file:PATH (or just PATH) a video or image sequence")
+      "file:PATH (or just PATH) a video or image sequence, "
+      "v4l2:/dev/videoN[,size=WxH][,fps=N][,format=NAME][,lock=on|off][,mains=50|60|off|auto][,wait=S] a camera")
       ->required();
+  add_list_cameras(command);
   text(
       "--work-size", [&o](const std::string& s) { o.work = parse_size("--work-size", s); }, "WxH",
       "largest frame to work on; never larger than the source (default: as many pixels as 960x544)");

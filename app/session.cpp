@@ -22,6 +22,7 @@ namespace {
 
 volatile std::sig_atomic_t stop_asked = 0;
 
+constexpr int kNoCamera = 3;       // exit code
 constexpr int kMarkerFrames = 60;  // the marker must be seen in one of the first so many
 constexpr int kSmallestSide = 32;  // an outline needs some 16 points
 
@@ -44,6 +45,13 @@ const char* model_name(BackgroundKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+CameraManners manners() {
+  CameraManners manners;
+  manners.stop = interrupted;
+  manners.say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  return manners;
+}
+
 }  // namespace
 
 bool interrupted() { return stop_asked != 0; }
@@ -54,7 +62,7 @@ void end_on_interrupt() {
 }
 
 Session::Session(const CaptureOptions& options)
-    : camera_(open_camera(options.camera, options.work, options.fps)),
+    : camera_(open_camera(options.camera, options.work, options.fps, manners())),
       frames_wanted_(options.frames),
       stabilise_(options.stabilise) {
   if (info().width < kSmallestSide || info().height < kSmallestSide) {
@@ -159,6 +167,11 @@ void Session::learn(const CaptureOptions& options, BackgroundKind kind) {
     capture_->learn(frame_of(read_tank_picture(options.background.picture, info())));
   } else {
     const std::vector<cv::Mat> frames = spread_frames(*camera_);
+    if (frames.empty())
+      throw UserError(info().name +
+                          ": what a camera will see cannot be looked at beforehand; give a picture of the empty " +
+                          "tank, --background still:PICTURE, or take vibe",
+                      2);
     const std::size_t count = std::min<std::size_t>(kLearnFrames, frames.size());
     for (std::size_t i = 0; i < count; ++i) capture_->learn(frame_of(frames[i * frames.size() / count]));
   }
@@ -210,6 +223,7 @@ bool Session::step(std::optional<int64_t> due_ns) {
     report_ = capture_->step(frame_, &steady_now_ns);
     if (statistics_.frames > 0) statistics_.allocations_after_frame_0 += heap.allocations();
   }
+  if (info().live) due_ns = camera_->epoch_ns() + frame_.timestamp_ns;
   if (due_ns) statistics_.latency.add(steady_now_ns() - *due_ns);
   statistics_.add(report_);
   for (int i = 0; i < capture_->fish_count(); ++i)
@@ -219,8 +233,19 @@ bool Session::step(std::optional<int64_t> due_ns) {
   return true;
 }
 
+void end_of_frames(Session& session) {
+  const std::string failure = session.camera().failure(), warning = session.camera().warning();
+  const auto dropped = static_cast<long long>(session.statistics().dropped);
+  if (!warning.empty()) std::fprintf(stderr, "%s\n", warning.c_str());
+  if (session.info().live && dropped > 0)
+    std::fprintf(stderr,
+                 "%s: %lld frames were dropped; a smaller size or a lower fps is easier on camera and machine\n",
+                 session.info().name.c_str(), dropped);
+  if (!failure.empty()) throw UserError(failure, kNoCamera);
+}
+
 void expect_frames(const Session& session) {
-  if (session.statistics().frames == 0 && !interrupted()) {
+  if (session.statistics().frames == 0 && !interrupted() && !session.info().live) {
     throw UserError(session.info().name + ": there is not one frame in it; is the video complete?");
   }
 }

@@ -69,6 +69,10 @@ class Session {
 // Throws UserError where not one frame came.
 void expect_frames(const Session& session);
 
+// At the very end, when all that was asked for is written: says on stderr what was wrong with the camera. Throws UserError
+// where it ended before its time.
+void end_of_frames(Session& session);
+
 // Set by Ctrl-C (installed in main): the loops end as at the end of the video, so files are complete.
 bool interrupted();
 void end_on_interrupt();

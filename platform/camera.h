@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where frames come from: a file, the simulated tank, later a real camera. One seam for all.
+// Where frames come from: a file, the simulated tank, a camera. One seam for all.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -27,6 +27,7 @@ struct CameraInfo {
   int height = 0;
   double fps = 0;            // nominal frames a second
   int64_t frame_count = -1;  // -1 when not known
+  bool live = false;         // frames come when they come: there is no pace to keep and nothing to skip
 };
 
 class Camera {
@@ -41,6 +42,14 @@ class Camera {
   virtual Picture picture() const = 0;
   // Starts again from the first frame; false where the source cannot (a live camera).
   virtual bool rewind() { return false; }
+  // Whether next() has something to say at once; false only while a live camera has no frame yet. Asking may end the last
+  // frame's pixels (the camera was unplugged), never picture()'s.
+  virtual bool ready() { return true; }
+  // Live: when timestamp 0 was, by the steady clock.
+  virtual int64_t epoch_ns() const { return 0; }
+  // Why a live camera ended before its time (pulled, silent), one line; empty when it did not. What was filmed until then
+  // is kept by whoever films.
+  virtual std::string failure() const { return {}; }
   // What went wrong without ending the clip (frames skipped, a file cut short), one line; empty when nothing did. Ask at the end.
   virtual std::string warning() const { return {}; }
 };

@@ -139,6 +139,7 @@ void animate(const Options& options) {
   std::fprintf(stderr, "%s\n%s: %lld drawn frames at %g a second (%d in-betweens)\n",
                summary_line(session.statistics()).c_str(), options.out.c_str(), static_cast<long long>(film.frames()),
                fps * (n + 1), n);
+  end_of_frames(session);
 }
 
 }  // namespace

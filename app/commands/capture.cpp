@@ -110,7 +110,9 @@ std::vector<std::string> outputs_of(const Options& options) {
 class Pace {
  public:
   Pace(Session& session, bool real_time)
-      : session_(session), real_time_(real_time), pacer_(static_cast<int64_t>(1e9 / session.info().fps)) {}
+      : session_(session),
+        real_time_(real_time && !session.info().live),
+        pacer_(static_cast<int64_t>(1e9 / session.info().fps)) {}
   bool next() {
     if (!real_time_) return session_.step();
     if (session_.statistics().frames == 0) pacer_.start(steady_now_ns());
@@ -174,7 +176,9 @@ void capture(const Options& options) {
   film.finish();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
   std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
-  if (options.real_time) std::fprintf(stderr, "%s\n", latency_line(session.statistics(), session.info().fps).c_str());
+  if (session.statistics().latency.count() > 0)
+    std::fprintf(stderr, "%s\n", latency_line(session.statistics(), session.info().fps).c_str());
+  end_of_frames(session);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // neontetra live: a window with the camera's overlay beside (or behind) the character that swims like the fish.
 //
-// A file or the tank plays at its own frame rate; frames that come too late are skipped and counted as dropped. A
-// source that decodes slower than that plays as fast as it can (Pacer), and the window still answers.
+// A camera is shown as its frames come. A file or the tank plays at its own frame rate; frames that come too late are
+// skipped and counted as dropped. A source that decodes slower than that plays as fast as it can (Pacer), and the window
+// still answers.
 // The character is drawn between the last two video frames, so it follows the fish by one video frame, never more.
 // Layouts: the camera beside the character; the camera behind it; the character alone, on its backdrop.
 #include <CLI/CLI.hpp>
@@ -63,7 +64,7 @@ class Live {
     pacer_.start(last_draw_ns_);
     while (!quit_ && !interrupted()) {
       handle_events();
-      if (!paused_ && pacer_.due(steady_now_ns()) && !next_frame()) break;
+      if (!paused_ && frame_due() && !next_frame()) break;
       draw();
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
@@ -72,6 +73,7 @@ class Live {
     if (!options_.json.empty()) write_text(options_.json, pretty(report_json(session_)));
     std::fprintf(stderr, "%s; %lld dropped\n", summary_line(session_.statistics()).c_str(),
                  static_cast<long long>(session_.statistics().dropped));
+    end_of_frames(session_);
   }
 
  private:
@@ -126,8 +128,11 @@ class Live {
     }
   }
 
+  bool frame_due() { return session_.info().live ? session_.camera().ready() : pacer_.due(steady_now_ns()); }
+
   bool next_frame() {
     const int64_t now_ns = steady_now_ns();
+    if (session_.info().live) pacer_.start(now_ns);  // the camera keeps its own pace
     const int64_t due_ns =
         pacer_.due_ns() + pacer_.skips(now_ns) * pacer_.period_ns();  // of the frame that is not skipped
     for (int skips = pacer_.take(now_ns); skips > 0; --skips) {

@@ -135,17 +135,6 @@ class FileCamera : public Camera {
 
 }  // namespace
 
-WorkSize working_size(int source_width, int source_height, int work_width, int work_height, int64_t most_pixels) {
-  double scale =
-      std::min({1.0, static_cast<double>(work_width) / source_width, static_cast<double>(work_height) / source_height});
-  const double pixels = static_cast<double>(source_width) * source_height;
-  if (most_pixels > 0) scale = std::min(scale, std::sqrt(static_cast<double>(most_pixels) / pixels));
-  const auto side = [scale](int source, int limit) {
-    return std::clamp(static_cast<int>(std::lround(source * scale)), 1, std::max(1, limit));
-  };
-  return {side(source_width, work_width), side(source_height, work_height)};
-}
-
 std::unique_ptr<Camera> open_file_camera(const std::string& path, int work_width, int work_height, double fps_override,
                                          int64_t most_pixels) {
   try {

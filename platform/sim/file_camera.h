@@ -12,15 +12,9 @@
 #include <cstdint>
 
 #include "platform/camera.h"
+#include "platform/working_size.h"
 
 namespace nt {
-
-struct WorkSize {
-  int width = 0, height = 0;
-};
-
-// The working size of a source, pixels; most_pixels > 0 limits width x height too.
-WorkSize working_size(int source_width, int source_height, int work_width, int work_height, int64_t most_pixels = 0);
 
 // fps_override > 0 replaces the file's frame rate (container rates of high-speed clips are often false).
 // Throws UserError, one line: missing, not a video, without frames, too small (under 16x16), too large (over 8192).

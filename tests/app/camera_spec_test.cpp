@@ -66,6 +66,37 @@ TEST(CameraSpec, SaysWhatNumbersAreAllowed) {
   EXPECT_TRUE(says(error_of("sim:size=0x544"), "whole number from 1"));
 }
 
+TEST(CameraSpec, ReadsEveryKeyOfAV4l2Camera) {
+  const CameraSpec spec =
+      parse_camera_spec("v4l2:/dev/video2,size=1280x720,fps=25,format=mjpeg,lock=off,mains=50,wait=3");
+  EXPECT_EQ(spec.kind, CameraSpec::Kind::v4l2);
+  EXPECT_EQ(spec.v4l2.path, "/dev/video2");
+  EXPECT_EQ(spec.v4l2.wish.width, 1280);
+  EXPECT_EQ(spec.v4l2.wish.height, 720);
+  EXPECT_EQ(spec.v4l2.wish.fps, 25);
+  EXPECT_EQ(spec.v4l2.wish.format, VideoFormat::mjpeg);
+  EXPECT_FALSE(spec.v4l2.lock);
+  EXPECT_EQ(spec.v4l2.mains, Mains::hz50);
+  EXPECT_EQ(spec.v4l2.wait_s, 3);
+  EXPECT_EQ(parse_camera_spec("/dev/video3").v4l2.path, "/dev/video3");
+  EXPECT_EQ(parse_camera_spec("v4l2").v4l2.path, "/dev/video0");
+  EXPECT_TRUE(parse_camera_spec("v4l2").v4l2.lock);
+  EXPECT_TRUE(says(error_of("v4l2:/dev/video0,format=yuv"), "did you mean 'yuyv'"));
+  EXPECT_TRUE(says(error_of("v4l2:/dev/video0,sise=3x4"), "did you mean 'size'"));
+  EXPECT_TRUE(says(error_of("v4l2:/dev/video0,lock=maybe"), "unknown 'maybe'"));
+  EXPECT_EQ(error_of("v4l2:/dev/video0,mains=55").exit_code, 2);
+}
+
+TEST(CameraSpec, ACameraThatIsNotThereIsNoCamera) {
+  try {
+    (void)open_camera(parse_camera_spec("v4l2:/dev/video99"), std::nullopt, 0);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.exit_code, 3);
+    EXPECT_TRUE(says(error, "/dev/video99: opening the camera failed (open: No such file or directory)"));
+  }
+}
+
 TEST(CameraSpec, AMissingBareFileIsNoCamera) { EXPECT_EQ(error_of("no/such/clip.avi").exit_code, 3); }
 
 TEST(CameraSpec, AnEmptyPathAndAKeyGivenTwiceAreMistakes) {

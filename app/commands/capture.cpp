@@ -17,7 +17,9 @@
 #include "app/session.h"
 #include "app/take/from_session.h"
 #include "app/take/recorder.h"
+#include "app/text_file.h"
 #include "app/ui/overlay.h"
+#include "core/base/hash.h"
 #include "platform/linux/clock.h"
 #include "platform/sim/sim_camera.h"
 
@@ -26,7 +28,7 @@ namespace {
 
 struct Options {
   CaptureOptions capture;
-  std::string csv, truth, overlay, json, contact_sheet, take;
+  std::string csv, truth, overlay, json, contact_sheet, take, frame_hashes;
   bool repair = true;
   bool all = false;
   bool real_time = false;
@@ -98,12 +100,25 @@ class Tables {
 
 // Every file that may be written.
 std::vector<std::string> outputs_of(const Options& options) {
-  std::vector<std::string> outputs = {options.overlay, options.json, options.contact_sheet, options.take};
+  std::vector<std::string> outputs = {options.overlay, options.json, options.contact_sheet, options.take,
+                                      options.frame_hashes};
   for (const std::string& table : {options.csv, options.truth}) {
     if (!options.all) outputs.push_back(table);
     for (int i = 1; options.all && !table.empty() && i <= kMostFish; ++i) outputs.push_back(fish_file(table, i));
   }
   return outputs;
+}
+
+// A row a frame: which pixels were looked at, so that two runs can be told to have seen the same.
+std::string hash_row(const Session& session) {
+  const LumaView& luma = session.frame().luma;
+  uint64_t hash = kHashSeed;
+  for (int y = 0; y < luma.height; ++y) hash = hash_bytes(luma.row(y), static_cast<std::size_t>(luma.width), hash);
+  char row[96];
+  std::snprintf(row, sizeof row, "%lld,%llu,%lld,%016llx\n", static_cast<long long>(session.frame_index()),
+                static_cast<unsigned long long>(session.frame().sequence),
+                static_cast<long long>(session.frame().timestamp_ns), static_cast<unsigned long long>(hash));
+  return row;
 }
 
 // Steps through the camera's frames: as fast as can be, or each when a live camera would have it.
@@ -150,6 +165,9 @@ void capture(const Options& options) {
   Tables tables(options, session);
   std::optional<TakeRecorder> take;
   if (!options.take.empty()) take.emplace(options.take, take_info(session, take_name(options.take)));
+  std::optional<TextFile> hashes;
+  if (!options.frame_hashes.empty()) hashes.emplace(options.frame_hashes);
+  if (hashes) hashes->write("frame,sequence,timestamp_ns,luma_fnv1a64\n");
   const Pane pane = pane_for(session.info().width, session.info().height);
   Film film(options.overlay, options.contact_sheet, pane.width, pane.height, session.info().fps);
   Overlay overlay(pane);
@@ -160,6 +178,7 @@ void capture(const Options& options) {
     while (pace.next()) {
       tables.add(session);
       if (take) take->add(take_frame(session));
+      if (hashes) hashes->write(hash_row(session));
       if (film.wanted()) {
         overlay.update(session);
         if (options.overlay_truth) overlay.show_truth(*simulated(session, "--overlay-truth").truth(), session.scale());
@@ -173,6 +192,7 @@ void capture(const Options& options) {
   expect_frames(session);
   tables.close(options.repair);
   if (take) finish(*take);
+  if (hashes) hashes->close();
   film.finish();
   if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
   std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
@@ -212,6 +232,10 @@ void add_capture(CLI::App& app, Action& action) {
       ->type_name("FILE.mp4");
   command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");
   command->add_option("--truth", options->truth, "the tank's truth in the CSV's columns (sim only)")->type_name("FILE");
+  command
+      ->add_option("--frame-hashes", options->frame_hashes,
+                   "a fingerprint of each frame's luma ('-' = standard output)")
+      ->type_name("FILE");
   command->add_option("--contact-sheet", options->contact_sheet, "twelve frames of the overlay in one picture")
       ->type_name("FILE.png");
   command->add_flag("--overlay-truth", options->overlay_truth,

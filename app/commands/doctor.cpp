@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // neontetra doctor: what this machine has, what is missing and what to do about it.
+#include <sys/utsname.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include <opencv2/core/version.hpp>
 
+#include "app/camera_list.h"
 #include "app/cli.h"
 #include "app/export/report.h"
 #include "app/session.h"
@@ -17,6 +21,8 @@
 #include "core/pipeline/pipeline.h"
 #include "platform/codecs.h"
 #include "platform/display.h"
+#include "platform/linux/jpeg_planes.h"
+#include "platform/linux/v4l2_list.h"
 
 namespace nt {
 namespace {
@@ -100,10 +106,43 @@ Finding trial() {
           "core allocated memory while running: report this"};
 }
 
+Finding machine() {
+  utsname name{};
+  uname(&name);
+  return {"machine",
+          std::string(name.sysname) + " " + name.release + ", " + name.machine + ", " +
+              std::to_string(std::thread::hardware_concurrency()) + " processors",
+          true, ""};
+}
+
+Finding cameras() {
+  std::string names, problems;
+  for (const ListedCamera& camera : list_v4l2_cameras()) {
+    if (camera.problem.empty()) names += (names.empty() ? "" : "; ") + camera.card + " (v4l2:" + camera.path + ")";
+    else problems += (problems.empty() ? "" : "; ") + camera.problem;
+  }
+  if (names.empty() && problems.empty())
+    problems =
+        "no camera is connected: plug one in ('neontetra --list-cameras' shows it); files and the tank do without";
+  return {"cameras", names.empty() ? "none" : names, problems.empty(), problems};
+}
+
+Finding jpeg_cameras() {
+  try {
+    (void)open_jpeg_planes();
+    return {"jpeg_cameras", "libjpeg-turbo", true, ""};
+  } catch (const UserError& error) {
+    return {"jpeg_cameras", "none", false, error.what()};
+  }
+}
+
 std::vector<Finding> look() {
   return {{"version", "neontetra " NEONTETRA_VERSION, true, ""},
           {"libraries", std::string("OpenCV ") + CV_VERSION + ", FFmpeg " + codecs().ffmpeg_version(), true, ""},
+          machine(),
           simd(),
+          cameras(),
+          jpeg_cameras(),
           off_screen(),
           window(),
           h264(),
@@ -126,6 +165,7 @@ void doctor(bool json) {
     report[finding.key]["advice"] = finding.advice;
     text += "    " + std::string(20, ' ') + finding.advice + "\n";
   }
+  report["cameras"]["list"] = camera_list_json();
   report["core_memory"]["bytes"] = Capture::bytes_needed(Limits{}, CaptureSettings{});
   write_text("-", json ? pretty(report) : text);
 }

@@ -7,9 +7,9 @@ set -euo pipefail
 folder=$1 share=$2 script=$3
 rm -f "$share/.status"
 cat >"$share/.init" <<'INIT'
-export PATH=/usr/sbin:/usr/bin:/sbin:/bin:/tmp/busybox HOME=/tmp XDG_RUNTIME_DIR=/run
-busybox mkdir -p /tmp/busybox
-busybox --install -s /tmp/busybox
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin:/run/busybox HOME=/run XDG_RUNTIME_DIR=/run
+busybox mkdir -p /run/busybox
+busybox --install -s /run/busybox
 . /mnt/.modules
 bash "/mnt/$(cat /mnt/.script)" </dev/null
 echo $? >/mnt/.status

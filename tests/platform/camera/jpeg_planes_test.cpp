@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/linux/jpeg_planes->h"
+#include "platform/linux/jpeg_planes.h"
 
 #include <gtest/gtest.h>
 #include <turbojpeg.h>

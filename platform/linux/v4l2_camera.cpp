@@ -19,7 +19,7 @@ constexpr int64_t kSecond_ns = 1'000'000'000;
 constexpr int kSlice_ms = 200;  // between two looks at whether to stop
 constexpr int kReopenEvery_ms = 200;
 constexpr int kDamagedInRow = 30;      // then the camera is started once more
-constexpr double kStalePeriods = 2.5;  // older pictures give way to newer ones that wait behind them
+constexpr double kStalePeriods = 3.5;  // the ring has run over: what waited gives way to what is new
 constexpr double kLeastSilence_s = 2, kSilentPeriods = 10;
 
 std::string seconds_text(double seconds) {

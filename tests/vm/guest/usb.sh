@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# The simulated USB camera through uvcvideo, then pulled out while it films.
+. /mnt/check.sh
+echo -1 >/sys/module/usbcore/parameters/autosuspend
+mkdir -p /dev/gadget
+mount -t gadgetfs gadget /dev/gadget || fail "no gadgetfs"
+cp small/clip.yuyv usb_camera /run/
+/run/usb_camera 480 272 5 /run/clip.yuyv &
+camera=$!
+for _ in $(seq 100); do [[ -e /dev/video0 ]] && break || sleep 0.1; done
+[[ -e /dev/video0 ]] || fail "uvcvideo does not see the camera"
+watch=(capture --background vibe --repair off)
+neontetra "${watch[@]}" --camera v4l2:/dev/video0 --frames 50 --csv usb.csv --frame-hashes usb.hashes 2>usb.txt ||
+  { cat usb.txt; fail "the USB camera"; }
+says usb.txt "480x272 yuyv at 5 frames a second"
+
+neontetra "${watch[@]}" --camera v4l2:/dev/video0,wait=1 --csv pulled.csv --take pulled.take 2>pulled.txt &
+film=$!
+films pulled.txt
+sleep 5
+kill $camera
+wait $film
+[[ $? == 3 ]] || { cat pulled.txt; fail "a camera that was pulled does not end with 3"; }
+says pulled.txt "the camera was unplugged and did not come back within 1 s; plug it in and start again"
+neontetra takes pulled.take >takes.txt || { cat takes.txt; fail "the take cannot be read"; }
+cat takes.txt

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# run.sh: real camera drivers without a camera. Builds an arm64 machine and the program for it, boots it under QEMU and
+# watches vivid and a simulated USB camera. Exit 0 when all is as it should be. `./dev test vm` runs it from the top folder.
+#
+# 1 vivid: every format gives frames; a camera in use and one that is unplugged give their lines; what was filmed is kept
+# 2 vivid's loopback: the frames that are played into it come out with the same bytes
+# 3 the USB camera: poses and bytes are those of the same clip read from files on this machine, through uvcvideo;
+#   pulled out while it films, the recording is kept
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+machine=$root/build/vm
+share=$machine/share
+program=$root/build/sim/app/neontetra
+SECONDS=0
+say() { printf 'vm: [%3d s] %s\n' "$SECONDS" "$*"; }
+
+make_machine() {
+  local stamp
+  stamp=$(cat "$here"/{make_machine.sh,packages.txt,guest/init} | sha256sum)
+  if [[ $(cat "$machine/stamp" 2>/dev/null) != "$stamp" ]]; then
+    say "making the machine"
+    "$here/make_machine.sh" "$machine"
+    echo "$stamp" >"$machine/stamp"
+  fi
+}
+
+# For the machine: the program and its modules, the USB camera, the guest's scripts. Here: the same program, and the clips.
+build() {
+  cd "$root"
+  cmake --preset sim >"$machine/configure.log" && cmake --build --preset sim --target neontetra tank_clip >"$machine/build.log" ||
+    { cat "$machine"/{configure,build}.log; return 1; }
+  cmake --preset pi64 >"$machine/configure.log" 2>&1 && cmake --build --preset pi64 >"$machine/build.log" 2>&1 ||
+    { tail -40 "$machine"/{configure,build}.log; return 1; }
+  rm -rf "$share" && mkdir -p "$share"
+  cp build/pi64/app/neontetra build/pi64/app/*.so "$here"/guest/*.sh "$share/"
+  aarch64-linux-gnu-strip "$share/neontetra" "$share"/*.so
+  aarch64-linux-gnu-g++ -O2 -std=c++20 -static -o "$share/usb_camera" "$here/usb_camera.cpp" -pthread
+  # 1280x720 is a size that vivid's loopback takes; the small clip is one that an emulated machine keeps up with.
+  build/sim/tests/vm/tank_clip calm 1280 720 4 "$share/large"
+  build/sim/tests/vm/tank_clip ghost 480 272 50 "$share/small"
+}
+
+# What the program here makes of the clips' pictures.
+expect() {
+  "$program" capture --camera "$share/large/pictures" --work-size 1280x720 --background vibe --frame-hashes "$share/large.hashes"
+  "$program" capture --camera "$share/small/pictures" --fps 5 --background vibe --repair off --csv "$share/small.csv" \
+    --frame-hashes "$share/small.hashes"
+  rm -r "$share"/*/pictures
+}
+
+run() { "$here/run_machine.sh" "$machine" "$share" "$1"; }
+
+mkdir -p "$machine"
+make_machine
+say "building the program for arm64"
+build
+say "what is expected"
+expect 2>/dev/null
+say "vivid"
+VM_MODULES="vivid:n_devs=1:node_types=0x1:num_inputs=1:input_types=0" run vivid.sh
+say "vivid's loopback"
+VM_MODULES="vivid:n_devs=1:node_types=0x101:num_inputs=1:input_types=3:num_outputs=1:output_types=1" run loopback.sh
+python3 "$here/compare.py" loopback "$share/large.hashes" "$share/loopback.hashes"
+say "the simulated USB camera"
+VM_CPUS=1 VM_MODULES="dummy_hcd gadgetfs uvcvideo" run usb.sh
+python3 "$here/compare.py" same "$share/small.hashes" "$share/usb.hashes" "$share/small.csv" "$share/usb.csv"
+python3 "$here/compare.py" kept "$share/small.csv" "$share/pulled.csv"
+say "all as it should be"

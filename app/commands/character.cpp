@@ -113,6 +113,7 @@ std::optional<LatticeAsset> lattice_of(const Options& options, const Proposed& p
   }
   if (!request.wanted && had.present() && had.drive == LatticeDrive::landmarks) {
     request.wanted = true;
+    request.stacked = had.view.form == LatticeForm::stacked;
     request.vertices = static_cast<int>(had.view.vertices.size());
   }
   if (!request.wanted) return std::nullopt;
@@ -129,15 +130,19 @@ void make_character(const Options& options) {
   const Proposed proposal = proposal_of(options, out, corrections);
   const RiggedFigure figure(proposal.file.character());
   const Rig rig = corrected(figure.found_for(corrections), corrections);
-  RiggedCharacter made = figure.with(rig);
+  const RiggedCharacter made = figure.with(rig);
   if (!options.preview.empty()) write_preview(options.preview, made.character);
   if (options.correct.list) write_text("-", list_of_points(rig, options.correct.json));
-  std::optional<LatticeAsset> lattice;
-  if (!out.empty()) lattice = lattice_of(options, proposal, made.character);
-  if (lattice) made.character.lattice = lattice->view();
+  // What the editor saves gets its lattice, too.
+  const auto save = [&](const Character& character, const Corrections& by) {
+    Character whole = character;
+    const std::optional<LatticeAsset> lattice = lattice_of(options, proposal, character);
+    if (lattice) whole.lattice = lattice->view();
+    save_character(out, whole, by);
+  };
   const bool fresh = !is_character(options.input) || !options.correct.set.empty();
-  if (!out.empty() && (fresh || !options.correct.edit)) save_character(out, made.character, corrections);
-  if (options.correct.edit) edit_character(out, made.character, corrections, options.correct);
+  if (!out.empty() && (fresh || !options.correct.edit)) save(made.character, corrections);
+  if (options.correct.edit) edit_character(out, made.character, corrections, options.correct, save);
 }
 
 }  // namespace

@@ -117,13 +117,13 @@ void save_character(const std::string& path, const Character& character, const C
 }
 
 void edit_character(const std::string& path, const Character& character, const Corrections& corrections,
-                    const CorrectionOptions& options) {
+                    const CorrectionOptions& options,
+                    const std::function<void(const Character&, const Corrections&)>& save) {
   const Size size = parse_size("--window-size", options.window_size);
   const std::unique_ptr<Display> display =
       open_window("neontetra: " + std::filesystem::path(path).filename().string(), size.width, size.height,
                   options.full_screen ? WindowMode::full_screen : WindowMode::large);
-  CharacterEditor editor(*display, std::filesystem::path(path).filename().string(), character, corrections,
-                         [&](const Character& changed, const Corrections& by) { save_character(path, changed, by); });
+  CharacterEditor editor(*display, std::filesystem::path(path).filename().string(), character, corrections, save);
   run(editor);
 }
 

@@ -41,8 +41,10 @@ void write_preview(const std::string& path, const Character& character);
 // Writes the character; its corrections beside it where there are any, or were.
 void save_character(const std::string& path, const Character& character, const Corrections& corrections);
 
-// Opens the window and comes back when it is closed. Throws UserError where there is no display.
+// Opens the window and comes back when it is closed; `save` is called with what is to be saved. Throws UserError where there
+// is no display.
 void edit_character(const std::string& path, const Character& character, const Corrections& corrections,
-                    const CorrectionOptions& options);
+                    const CorrectionOptions& options,
+                    const std::function<void(const Character&, const Corrections&)>& save);
 
 }  // namespace nt

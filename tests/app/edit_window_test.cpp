@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/author/character_file.h"
 #include "tests/app/screen_script.h"
 
 namespace nt {
@@ -75,6 +78,15 @@ TEST_F(EditWindow, UnsavedChangesAreAskedAbout) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_FALSE(picture("asked").empty());
   EXPECT_FALSE(std::filesystem::exists(dir_ / "carp.corrections.txt"));
+}
+
+TEST_F(EditWindow, ASwimmersLatticeIsMadeAnewForWhatIsSaved) {
+  const std::string whale = NEONTETRA_ASSETS "/characters/whale.glb";
+  ASSERT_EQ(neontetra("character " + whale + " --lattice --vertices 150 --out " + character_).exit_code, 0);
+  const Outcome run = edit("xdotool key m; sleep 0.3; xdotool key ctrl+s; sleep 2; xdotool key q");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "carp.corrections.txt"));
+  EXPECT_TRUE(LoadedCharacter(character_, Limits{}).character().lattice.present());
 }
 
 TEST(EditWithoutADisplay, SaysSoInOneLine) {

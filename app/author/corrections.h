@@ -47,7 +47,7 @@ struct Corrections {
 Rig corrected(Rig rig, const Corrections& corrections);
 
 // One "key = value" or "key=value" into `into`, replacing what it said of this key. `where` begins messages:
-// "koi.corrections.txt:7", "--set". Throws UserError (exit code 2).
+// "koi.corrections.txt:7", "--set". `fins` replaces what was said of single fins, too. Throws UserError (exit code 2).
 void set_correction(Corrections& into, const std::string& where, const std::string& line);
 
 Corrections parse_corrections(const std::string& name, const std::string& text);  // a whole file's text

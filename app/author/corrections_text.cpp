@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <system_error>
@@ -207,7 +208,12 @@ std::vector<std::string> Corrections::text_lines() const {
 }
 
 void set_correction(Corrections& into, const std::string& where, const std::string& line) {
-  (void)set_one(into, where, line);
+  const std::string key = set_one(into, where, line);
+  if (key != "fins") return;
+  // It replaces what was said of single fins before: whether there are some, and where those lay that are to go.
+  std::fill(std::begin(into.removed), std::end(into.removed), false);
+  const int fins = 2 * *into.fin_pairs;
+  std::erase_if(into.moved, [&](const auto& point) { return point.first.of_fin() && point.first.index >= fins; });
 }
 
 Corrections parse_corrections(const std::string& name, const std::string& text) {

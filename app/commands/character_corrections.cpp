@@ -31,11 +31,12 @@ bool exists(const std::string& path) {
 }  // namespace
 
 void add_correction_options(CLI::App& command, CorrectionOptions& options) {
+  // Ahead of what --set says: --fins 2 --set r_fin_2=none.
   const auto key = [&](const char* option, const std::string& name, const char* help, const char* type) {
-    command
-        .add_option_function<std::string>(
-            option, [&options, name](const std::string& value) { options.set.push_back(name + "=" + value); }, help)
-        ->type_name(type);
+    const auto take = [&options, name](const std::string& value) {
+      options.set.insert(options.set.begin(), name + "=" + value);
+    };
+    command.add_option_function<std::string>(option, take, help)->type_name(type);
   };
   command
       .add_option("--corrections", options.file,

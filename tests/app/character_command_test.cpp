@@ -70,6 +70,16 @@ TEST_F(CharacterCommand, AFileOfCorrectionsByHandKeepsItsComments) {
   EXPECT_TRUE(std::filesystem::exists(dir_ / "b.corrections.txt"));
 }
 
+TEST_F(CharacterCommand, FinsThatAreCountedReplaceThoseThatWerePlaced) {
+  std::ofstream(notes_) << "l_fin = 512,80\nmirror = yes\n";
+  character(kCarp + " --out " + file_ + " --fins 0");
+  EXPECT_FALSE(points(file_)["points"].contains("l_fin"));
+  EXPECT_EQ(read_text(notes_).find("l_fin"), std::string::npos);
+  character(kCarp + " --out " + file_ + " --set r_fin_2=none --fins 2");
+  EXPECT_TRUE(points(file_)["points"].contains("l_fin_2"));
+  EXPECT_FALSE(points(file_)["points"].contains("r_fin_2"));
+}
+
 TEST_F(CharacterCommand, ListsOnTheirOwnWriteNothing) {
   const Outcome run = character(kCarp + " --list");
   EXPECT_NE(run.out.find("\nhead "), std::string::npos) << run.out;

@@ -89,6 +89,20 @@ TEST(CorrectionsText, ASettingReplacesTheOneBefore) {
   EXPECT_TRUE(c.moved.empty());
 }
 
+TEST(CorrectionsText, PairsOfFinsReplaceWhatWasSaidOfSingleOnes) {
+  Corrections c;
+  for (const char* line : {"head=9,9", "l_fin=4,5", "jun_tl=4,6", "r_fin=none", "l_fin_2=7,8"})
+    set_correction(c, "--set", line);
+  set_correction(c, "--set", "fins=1");
+  EXPECT_FALSE(c.removed[kRightFin]);
+  EXPECT_EQ(c.moved.size(), 3u);  // head, l_fin, jun_tl
+  set_correction(c, "--set", "fins=0");
+  ASSERT_EQ(c.moved.size(), 1u);
+  test::expect_near(c.moved.at(*point_named("head")), {9, 9}, 0);
+  set_correction(c, "--set", "l_fin=4,5");  // the other way round a tip places its fin
+  EXPECT_EQ(c.moved.size(), 2u);
+}
+
 TEST(CorrectionsText, TheFileStandsBesideTheCharacter) {
   EXPECT_EQ(corrections_path("a/koi.ntchar"), "a/koi.corrections.txt");
   const TempDir dir;

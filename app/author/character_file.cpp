@@ -141,8 +141,10 @@ void write_character_file(const std::string& path, std::span<const std::byte> by
 }
 
 LoadedCharacter::LoadedCharacter(const std::string& path, const Limits& limits) {
+  std::error_code unused;
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw UserError("cannot read the character " + path + ": no such file, or no right to read it");
+  if (!in || std::filesystem::is_directory(path, unused))
+    throw UserError("cannot read the character " + path + ": no such file, or no right to read it");
   std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   open(std::as_bytes(std::span<const char>(bytes)), path, limits);
 }

@@ -2,7 +2,7 @@
 #include "app/author/figure.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -20,8 +20,8 @@ constexpr double kLeastFigure = 0.004;  // share of the picture; less is a speck
 constexpr int kSoftEdge = 2;
 
 cv::Mat read_rgba(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw UserError("cannot read the picture " + path + ": no such file");
+  if (!std::ifstream(path))
+    throw UserError("cannot read the picture " + path + ": no such file, or no right to read it");
   cv::Mat image;
   try {
     image = codecs().read_picture(path, cv::IMREAD_UNCHANGED);

@@ -177,7 +177,8 @@ void axis_doubts(const Proposal& p, std::size_t first, int count, const char* to
     if (end == i) continue;
     const std::string which = end == i + 1 ? "point " + std::to_string(end)
                                            : "points " + std::to_string(i + 1) + " to " + std::to_string(end);
-    out.push_back("axis " + which + " towards the " + towards + " lie off the middle (" + percent(least) + ")");
+    out.push_back("axis " + which + " towards the " + towards + (end - i > 1 ? " lie" : " lies") + " off the middle (" +
+                  percent(least) + ")");
     i = end;
   }
 }

@@ -75,7 +75,7 @@ TEST(LatticeSection, WhatDoesNotFitIsRefused) {
   EXPECT_TRUE(refused(l.tetrahedra_offset, uint16_t{0xffff}));
   EXPECT_TRUE(refused(l.vertices_offset, std::numeric_limits<float>::quiet_NaN()));
   EXPECT_TRUE(refused(l.weights_offset, -1.0f));
-  EXPECT_TRUE(refused(l.slots_offset, uint32_t{100000}));
+  EXPECT_TRUE(refused(l.slots_offset, uint32_t{4} * l.block_count));  // one behind the last
   EXPECT_TRUE(refused(l.coordinates_offset, std::numeric_limits<float>::infinity()));
   EXPECT_TRUE(refused(l.block_tetrahedra_offset, uint16_t{0xfff0}));
   EXPECT_TRUE(refused(l.markers_offset, uint16_t{0xfff0}));

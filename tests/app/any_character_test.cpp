@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <sstream>
 #include <vector>
@@ -15,10 +17,12 @@
 namespace nt {
 namespace {
 
-constexpr int kFrames = 8;
+constexpr int kFrames = 75;  // the fish is in the picture from frame 58 on
+constexpr int kLeastPoses = 10;
 const std::string kSim = "sim:scene=turns,seed=2,size=480x272,frames=" + std::to_string(kFrames);
 
-// Makes the character and the film; prints which points had low confidence.
+// Makes the character and the film; prints which points had low confidence. In the first frame there is nothing but the
+// ground, in the last one the character swims.
 void swim(const std::string& name, const std::string& file, const std::string& options) {
   SCOPED_TRACE(name);
   const TempDir dir;
@@ -30,13 +34,21 @@ void swim(const std::string& name, const std::string& file, const std::string& o
   std::getline(lines, line);  // counts
   while (std::getline(lines, line)) std::printf("%s: %s\n", name.c_str(), line.c_str());
   const Outcome swum = neontetra("animate --camera " + kSim + " --background vibe --inbetweens 0 --character " +
-                                 character + " --out " + film);
+                                 character + " --json - --out " + film);
   ASSERT_EQ(swum.exit_code, 0) << swum.err;
+  const auto report = nlohmann::json::parse(swum.out)["character"];
+  EXPECT_GE(report["poses"], kLeastPoses);
+  if (report["turned_triangles"] > 0)
+    std::printf("%s: %d triangles turned over\n", name.c_str(), int{report["turned_triangles"]});
   cv::VideoCapture video(film);
-  cv::Mat frame;
+  cv::Mat frame, first, last;
   int frames = 0;
-  while (video.read(frame)) ++frames;
-  EXPECT_EQ(frames, kFrames);
+  for (; video.read(frame); ++frames) {
+    if (frames == 0) first = frame.clone();
+    last = frame.clone();
+  }
+  ASSERT_EQ(frames, kFrames);
+  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 60);
 }
 
 std::vector<std::filesystem::path> files_below(const std::string& folder, const std::vector<std::string>& endings) {

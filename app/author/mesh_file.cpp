@@ -21,6 +21,7 @@
 
 #include "app/author/mesh_soup.h"
 #include "platform/camera.h"
+#include "platform/sim/quiet_stderr.h"
 
 namespace nt {
 namespace {
@@ -125,6 +126,7 @@ cv::Mat Reader::texture_of(const aiMaterial& material) {
     return {};
   }
   cv::Mat image;
+  const QuietStderr quiet;
   try {
     if (const aiTexture* inside = scene_->GetEmbeddedTexture(name.C_Str())) {
       if (inside->mHeight == 0) {

@@ -14,10 +14,15 @@ extern "C" {
 #include "app/codecs/libav_video.h"
 #include "platform/codecs.h"
 #include "platform/sim/decoded_files.h"
+#include "platform/sim/quiet_stderr.h"
 
 namespace {
 
-cv::Mat read_picture(const std::string& path, int imread_flags) { return cv::imread(path, imread_flags); }
+cv::Mat read_picture(const std::string& path, int imread_flags) {
+  const nt::QuietStderr quiet;
+  return cv::imread(path, imread_flags);
+}
+
 bool encode_png(const cv::Mat& bgr, std::vector<uint8_t>& bytes) { return cv::imencode(".png", bgr, bytes); }
 
 }  // namespace

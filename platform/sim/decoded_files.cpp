@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/sim/decoded_files.h"
 
-#include <fcntl.h>
 #include <glob.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -19,6 +17,7 @@
 #include <vector>
 
 #include "platform/camera.h"
+#include "platform/sim/quiet_stderr.h"
 
 namespace nt {
 namespace {
@@ -45,28 +44,6 @@ int quarter_turns(double angle_deg) {
   const long turns = std::lround((kWrongSign ? -angle_deg : angle_deg) / 90.0);
   return static_cast<int>(((turns % 4) + 4) % 4);
 }
-
-// libpng and libjpeg print to stderr whatever OpenCV is told.
-class QuietStderr {
- public:
-  QuietStderr() : saved_(dup(STDERR_FILENO)) {
-    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (null >= 0) {
-      dup2(null, STDERR_FILENO);
-      close(null);
-    }
-  }
-  ~QuietStderr() {
-    if (saved_ < 0) return;
-    dup2(saved_, STDERR_FILENO);
-    close(saved_);
-  }
-  QuietStderr(const QuietStderr&) = delete;
-  QuietStderr& operator=(const QuietStderr&) = delete;
-
- private:
-  int saved_;
-};
 
 class VideoSource : public FrameSource {
  public:

@@ -103,6 +103,8 @@ TEST_F(CharacterCommand, MistakesAreOneLine) {
   std::ofstream(notes_) << "fins = 0\nfin = 1\n";
   refused(kCarp + " --out " + file_, "koi.corrections.txt:2: there is no 'fin'; did you mean fins?");
   EXPECT_EQ(read_text(notes_), "fins = 0\nfin = 1\n");
+  std::ofstream(dir_ / "cut.png", std::ios::binary) << read_text(kCarp).substr(0, 60000);
+  refused((dir_ / "cut.png") + " --out " + (dir_ / "cut.ntchar"), "cut.png is not a picture", 1);
   std::filesystem::create_directory(dir_ / "folder.ntchar");
   refused((dir_ / "folder.ntchar") + " --list", "cannot read the character", 1);
   refused(file_ + " --edit --corrections none --window-size 12", "--window-size must be WIDTHxHEIGHT");

@@ -46,6 +46,7 @@ struct BitMask {
     return x >= 0 && y >= 0 && x < width && y < height && ((row(y)[x >> 6] >> (x & 63)) & 1u) != 0;
   }
   void set(int x, int y) const { row(y)[x >> 6] |= uint64_t{1} << (x & 63); }
+  void clear(int x, int y) const { row(y)[x >> 6] &= ~(uint64_t{1} << (x & 63)); }
 };
 
 constexpr int words_for(int width) { return (width + 63) / 64; }

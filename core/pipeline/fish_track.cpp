@@ -19,6 +19,8 @@ constexpr float kTravelFrames = 5.0f;
 // What has been there for less, or is smaller, may be a part of this fish.
 constexpr int kKnownFrames = 10;
 constexpr float kFishBeside = 0.35f;
+constexpr float kCaudalFin = 0.2f;  // of the axis that is seen without it
+constexpr float kCutWidth = 1.5f;   // pixels, either side of the line that opens a ring
 
 }  // namespace
 
@@ -42,9 +44,10 @@ PoseStatus FishTrack::follow(const CaptureTools& tools) {
 PoseStatus FishTrack::look_for(const CaptureTools& tools, Swimmer& swimmer) {
   if (swimmer.blob < 0) return PoseStatus::lost;
   const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(swimmer.blob)];
-  const PoseStatus status = outline(tools, swimmer.blob);
+  const PoseStatus status = outline(tools, swimmer);
   if (swimmer.in_heap) return PoseStatus::occluded;
   if (!blob.touches_edge) looks = swimmer.looks;
+  entering_ |= blob.touches_edge || status == PoseStatus::partial;
   if (status != PoseStatus::ok) return status;
   return blob.touches_edge ? PoseStatus::partial : find_pose(tools, swimmer);
 }
@@ -57,7 +60,8 @@ void FishTrack::miss(PoseStatus status) {
 }
 
 // The blob's outline into `contour`; ok, or why it can give no pose.
-PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
+PoseStatus FishTrack::outline(const CaptureTools& tools, const Swimmer& swimmer) {
+  const int index = swimmer.blob;
   const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(index)];
   const LumaView luma = tools.frame.luma;
   Refine& refine = tools.refine;
@@ -67,20 +71,54 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, int index) {
   if (refine.runs_dropped()) tools.report.flags |= kRunsDropped;
   if (refine.blobs_dropped()) tools.report.flags |= kBlobsDropped;
   if (fish.shadow_removed) tools.report.flags |= kShadowRemoved;
+  fins_may_hide_ = fish.fins_may_hide;
   protect_from_learning(fish);
   const bool leaves_tank = clip(tools, fish);
   touching_ = part(tools, fish, index);
   tools.clock.lap(Stage::refine);
+  trace(tools, fish);
+  const bool ring = is_ring(fish);
+  if (ring && open_ring(fish, predicted(swimmer))) trace(tools, fish);
+  const bool cut = measure_contour(luma.width, luma.height, tools.frame_from_reference);
+  tools.clock.lap(Stage::outline);
+  if (cut || leaves_tank) return PoseStatus::partial;
+  if (ring && is_ring(fish)) return PoseStatus::occluded;
+  return contour_count > 0 ? PoseStatus::ok : PoseStatus::lost;
+}
+
+void FishTrack::trace(const CaptureTools& tools, const FishMask& fish) {
   const int count = trace_outline(fish.mask, fish.box.x0, fish.box.y0, contour);
   if (count < 0) tools.report.flags |= kContourCut;
   contour_count = max_int(count, 0);
   contour_high_water = max_int(contour_high_water, contour_count);
-  const bool cut = measure_contour(luma.width, luma.height, tools.frame_from_reference);
-  tools.clock.lap(Stage::outline);
-  const float enclosed = enclosed_px();
-  if (cut || leaves_tank) return PoseStatus::partial;
-  if (enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed) return PoseStatus::occluded;
-  return contour_count > 0 ? PoseStatus::ok : PoseStatus::lost;
+}
+
+// By Pick's theorem an outline of n border pixels and area A holds A + n / 2 + 1 pixels; what the mask lacks is a hole.
+bool FishTrack::is_ring(const FishMask& fish) const {
+  const float enclosed = det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
+  return enclosed - static_cast<float>(count_bits(fish.mask)) > kRingHole * enclosed;
+}
+
+// Where the head meets the tail an outline has no ends. They touch where they were last seen to come together: the ring is
+// cut there, along the ray from its middle between them. False without a pose to go by.
+bool FishTrack::open_ring(const FishMask& fish, Vec2 moved) const {
+  if (!has_last_ || frames_without_pose_ > kForgetOrder) return false;
+  const Vec2 middle = polygon_moments(points()).centroid;
+  const Vec2 gap = lerp(last_axis_[0], last_axis_[kOrderPoints - 1], 0.5f) + moved - middle;
+  if (length_sq(gap) == 0.0f) return false;
+  const Vec2 ray = normalised(gap);
+  for (int y = 0; y < fish.mask.height; ++y) {
+    for (int x = 0; x < fish.mask.width; ++x) {
+      const Vec2 p = Vec2{static_cast<float>(x + fish.box.x0), static_cast<float>(y + fish.box.y0)} - middle;
+      if (dot(p, ray) > 0.0f && det::abs(cross(ray, p)) < kCutWidth) fish.mask.clear(x, y);
+    }
+  }
+  return true;
+}
+
+// How far it has swum since the last pose.
+Vec2 FishTrack::predicted(const Swimmer& swimmer) const {
+  return swimmer.velocity * static_cast<float>(frames_without_pose_ + 1);
 }
 
 // Cuts off what lies outside of the tank; true when there was something.
@@ -139,14 +177,22 @@ bool FishTrack::measure_contour(int width, int height, const Similarity& frame_f
   return cut;
 }
 
-// By Pick's theorem an outline of n border pixels and area A holds A + n / 2 + 1 pixels; what the mask lacks is a hole.
-float FishTrack::enclosed_px() const {
-  return det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
+// The caudal fin of a fish that swims in is seen last, and where it may hide, not at all: whether it may still be outside.
+bool FishTrack::tail_may_be_outside(const CaptureTools& tools) {
+  if (!entering_) return false;
+  const float most_x = static_cast<float>(tools.frame.luma.width - 1),
+              most_y = static_cast<float>(tools.frame.luma.height - 1);
+  const float room = fins_may_hide_ ? kCaudalFin * pose.axis_len : 0.0f;
+  const auto near_edge = [&](Vec2 p) {
+    return det::min(det::min(p.x, p.y), det::min(most_x - p.x, most_y - p.y)) < room;
+  };
+  entering_ = near_edge(pose.head) || near_edge(pose.tail);
+  return entering_;
 }
 
 LandmarkHints FishTrack::hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const {
   LandmarkHints hints;
-  const Vec2 moved = swimmer.velocity * static_cast<float>(frames_without_pose_ + 1);
+  const Vec2 moved = predicted(swimmer);
   for (std::size_t i = 0; i < last.size(); ++i) last[i] = last_axis_[i] + moved;
   if (has_last_) hints.last = last;
   hints.head_log_odds = head_log_odds_;
@@ -171,6 +217,7 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   if (!found || too_large ||
       !swimmer.observe(box, pose.centre, landmarks.area_px(), pose.axis_len, touching_, tools.settings.lost_after))
     return PoseStatus::occluded;
+  if (tail_may_be_outside(tools)) return PoseStatus::partial;
   if (landmarks.swapped()) tools.report.flags |= kHeadTailSwapped;
   pose.status = PoseStatus::ok;
   remember(landmarks);

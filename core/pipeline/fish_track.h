@@ -69,12 +69,16 @@ struct FishTrack {
 
  private:
   PoseStatus look_for(const CaptureTools& tools, Swimmer& swimmer);
-  PoseStatus outline(const CaptureTools& tools, int blob);
+  PoseStatus outline(const CaptureTools& tools, const Swimmer& swimmer);
   bool clip(const CaptureTools& tools, const FishMask& fish) const;
   bool part(const CaptureTools& tools, const FishMask& fish, int blob) const;
+  bool open_ring(const FishMask& fish, Vec2 moved) const;
+  Vec2 predicted(const Swimmer& swimmer) const;
+  void trace(const CaptureTools& tools, const FishMask& fish);
+  bool tail_may_be_outside(const CaptureTools& tools);
   bool measure_contour(int width, int height, const Similarity& frame_from_reference);
   void to_frame(const Similarity& frame_from_reference);
-  float enclosed_px() const;
+  bool is_ring(const FishMask& fish) const;
   PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
   LandmarkHints hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const;
   void remember(const Landmarks& landmarks);
@@ -85,6 +89,8 @@ struct FishTrack {
   float head_log_odds_ = 0;
   bool has_last_ = false;
   bool touching_ = false;  // what was outlined holds a part of another one
+  bool entering_ = true;  // it was cut by the frame's edge, or is new, and its tail has not been seen clear of the edge
+  bool fins_may_hide_ = false;  // of the last outline
   uint32_t last_swimmer_ = 0;
   int frames_without_pose_ = 0;
 };

@@ -26,9 +26,10 @@ constexpr double kLargestShadow = 0.55;
 // The weak mask is not opened, so it falls into more parts than the frame has blobs.
 constexpr int kPartsPerBlob = 4;
 constexpr int kMostFlicker = 24;  // grey levels; more is no flicker
-constexpr float kGlow = 0.12f;    // of the fish's own contrast; its fins have a quarter of it and more
-constexpr float kNoisy = 4.0f;    // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
-constexpr int kRim = 2;           // pixels
+constexpr float kGlow = 0.12f;    // of the fish's own contrast; its fins have a quarter of it and more:
+constexpr float kFaintFin = 0.25f;
+constexpr float kNoisy = 4.0f;  // grey levels: from here on the fins of the tank's fish drown in single pixels' noise
+constexpr int kRim = 2;         // pixels
 constexpr float kBlurred = 0.45f;  // of the noise is left by the blur (0.375), with the background plane's own
 LumaView part_of(LumaView whole, const Box& box) {
   return {whole.row(box.y0) + box.x0, box.width(), box.height(), whole.stride};
@@ -252,12 +253,16 @@ FishMask Refine::fish_in(const Box& box, LumaView luma, LumaView background, flo
   // Above the noise, and above the glow and the lens blur around a fish of high contrast.
   const int contrast = median_of(differences(here, ground, seeds, 4));
   const int weak = max_int(weak_threshold(noise_sigma), static_cast<int>(kGlow * static_cast<float>(contrast)));
+  result.fins_may_hide = static_cast<float>(weak) > kFaintFin * static_cast<float>(contrast);
   masks_of_difference(here, ground, weak, light_offset(here, ground), bright, dark);
   combine(candidates, [&](int i) { return bright.words[i] | dark.words[i] | seeds.words[i]; });
   if (model != nullptr) {
     // A vein of light on the ground differs from the estimate, but has been seen before. Only the rim of what is new may
     // hold familiar pixels: there fish and ground mix.
+    const int differing = count_bits(candidates);
     model->clear_familiar(here, box.x0, box.y0, blurred ? weak / 2 : weak, candidates);
+    // A calm ground's rims are a third of the fish; a surface that ripples is several times as large.
+    result.fins_may_hide |= differing > 2 * count_bits(candidates);
     spread(candidates, shadow, kRim);
     combine(candidates, [&](int i) { return (shadow.words[i] & (bright.words[i] | dark.words[i])) | seeds.words[i]; });
   }

@@ -24,6 +24,8 @@ struct FishMask {
   BitMask mask;    // box coordinates
   BitMask around;  // the fish and what hangs together with it (its shadow), grown: not to be learned as background
   bool shadow_removed = false;
+  // Noise or a restless ground is as strong as a half-transparent fin: the mask may end where the caudal fin begins.
+  bool fins_may_hide = false;
 };
 
 class Refine {

@@ -34,6 +34,12 @@ float log_ratio(float a, float b) { return det::abs(det::log(det::max(a, 1.0f) /
 
 Looks looks_of(const Blob& blob, float luma) { return {static_cast<float>(blob.area_px), length_of(blob), luma}; }
 
+// How far a part of it can be from its middle: of one that swims in the length is not known yet.
+float reach_of(const Swimmer& s) {
+  const Vec2 size{static_cast<float>(s.box.x1 - s.box.x0), static_cast<float>(s.box.y1 - s.box.y0)};
+  return det::max(s.length_px(), length(size));
+}
+
 // What it weighs that a swimmer finds its blob.
 float worth(const Swimmer& s) {
   if (s.followed) return 1.0f;
@@ -333,7 +339,7 @@ void Swimmers::find_heaps(std::span<const Blob> blobs) {
     if (s.blob < 0) s.blob = heap_of(s, blobs);
   for (Swimmer& s : all()) {
     const Swimmer* whole = find(s.part_of);
-    if (whole == nullptr || length(whole->centroid - s.centroid) > whole->length_px()) s.part_of = 0;
+    if (whole == nullptr || length(whole->centroid - s.centroid) > reach_of(*whole)) s.part_of = 0;
     if (s.blob < 0) {
       ++s.lost_frames;
       s.in_heap = false;

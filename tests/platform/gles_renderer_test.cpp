@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each item looks like, pixel by pixel, drawn off-screen.
-#include "platform/linux/gles_renderer.h"
+#include "platform/display/gles_renderer.h"
 
 #include <vector>
 

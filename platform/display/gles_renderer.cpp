@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/linux/gles_renderer.h"
+#include "platform/display/gles_renderer.h"
 
 #include <GLES3/gl3.h>
 
@@ -116,18 +116,6 @@ bool drawable(const Picture& picture) { return picture.pixels != nullptr && pict
 float soft_margin(float scale) { return 1.0f / scale; }
 
 }  // namespace
-
-CanvasFit fit_canvas(int canvas_width, int canvas_height, int display_width, int display_height) {
-  CanvasFit fit;
-  if (canvas_width <= 0 || canvas_height <= 0 || display_width <= 0 || display_height <= 0) return fit;
-  fit.scale = std::min(static_cast<float>(display_width) / static_cast<float>(canvas_width),
-                       static_cast<float>(display_height) / static_cast<float>(canvas_height));
-  fit.width = std::max(1, static_cast<int>(std::lround(static_cast<float>(canvas_width) * fit.scale)));
-  fit.height = std::max(1, static_cast<int>(std::lround(static_cast<float>(canvas_height) * fit.scale)));
-  fit.x = (display_width - fit.width) / 2;
-  fit.y = (display_height - fit.height) / 2;
-  return fit;
-}
 
 GlesRenderer::GlesRenderer() : program_(link_program()) {
   canvas_uniform_ = glGetUniformLocation(program_, "canvas");

@@ -10,7 +10,7 @@
 
 #include "platform/camera.h"
 #include "platform/display.h"
-#include "platform/linux/gles_renderer.h"
+#include "platform/display/gles_renderer.h"
 
 namespace nt {
 namespace {

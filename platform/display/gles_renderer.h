@@ -16,16 +16,9 @@
 #include <vector>
 
 #include "core/scene/scene.h"
+#include "platform/display/canvas_fit.h"
 
 namespace nt {
-
-// Where the canvas lies on the display, display pixels.
-struct CanvasFit {
-  float scale = 1;  // display pixels a scene pixel
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
-CanvasFit fit_canvas(int canvas_width, int canvas_height, int display_width, int display_height);
 
 enum class RowOrder : uint8_t { bottom_up, top_down };  // of the framebuffer: a window's is bottom_up
 

@@ -16,7 +16,7 @@
 #include "app/progress.h"
 #include "app/session.h"
 #include "app/take/from_session.h"
-#include "app/take/recorder.h"
+#include "app/take/take_recording.h"
 #include "app/text_file.h"
 #include "app/ui/overlay.h"
 #include "core/base/hash.h"
@@ -33,6 +33,7 @@ struct Options {
   bool all = false;
   bool real_time = false;
   bool overlay_truth = false;
+  bool keep_video = false;
   std::optional<int> max_fish;
 };
 
@@ -102,6 +103,7 @@ class Tables {
 std::vector<std::string> outputs_of(const Options& options) {
   std::vector<std::string> outputs = {options.overlay, options.json, options.contact_sheet, options.take,
                                       options.frame_hashes};
+  if (options.keep_video) outputs.push_back(options.take + ".mkv");
   for (const std::string& table : {options.csv, options.truth}) {
     if (!options.all) outputs.push_back(table);
     for (int i = 1; options.all && !table.empty() && i <= kMostFish; ++i) outputs.push_back(fish_file(table, i));
@@ -149,22 +151,23 @@ class Pace {
 
 std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
-void finish(TakeRecorder& take) {
+void finish(TakeRecording& take) {
   take.finish();
-  if (take.not_recorded() > 0)
-    std::fprintf(stderr, "take: %lld frames are missing, the disk was too slow for them\n",
-                 static_cast<long long>(take.not_recorded()));
+  std::fprintf(stderr, "%s\n", take.summary().c_str());
 }
 
 void capture(const Options& options) {
   if (options.max_fish && !options.all) throw UserError("--max-fish goes with --all: how many fish get a file", 2);
+  if (options.keep_video && options.take.empty()) throw UserError("--keep-video goes with --take", 2);
   check_outputs(inputs_of(options.capture), outputs_of(options));
   CaptureOptions watched = options.capture;
   if (options.all) watched.max_fish = options.max_fish.value_or(kFishOfAll);
   Session session(watched);
   Tables tables(options, session);
-  std::optional<TakeRecorder> take;
-  if (!options.take.empty()) take.emplace(options.take, take_info(session, take_name(options.take)));
+  std::optional<TakeRecording> take;
+  if (!options.take.empty())
+    take.emplace(options.take, take_info(session, take_name(options.take)), options.keep_video);
+  FishRows rows;
   std::optional<TextFile> hashes;
   if (!options.frame_hashes.empty()) hashes.emplace(options.frame_hashes);
   if (hashes) hashes->write("frame,sequence,timestamp_ns,luma_fnv1a64\n");
@@ -177,7 +180,7 @@ void capture(const Options& options) {
     Pace pace(session, options.real_time);
     while (pace.next()) {
       tables.add(session);
-      if (take) take->add(take_frame(session));
+      if (take) take->add(session, rows.read(session));
       if (hashes) hashes->write(hash_row(session));
       if (film.wanted()) {
         overlay.update(session);
@@ -226,8 +229,11 @@ void add_capture(CLI::App& app, Action& action) {
           "with --all: how many at a time (default 8)")
       ->type_name("N")
       ->option_text("N");
-  command->add_option("--take", options->take, "a take: motion and poses of every frame, to play and edit later")
+  command
+      ->add_option("--take", options->take,
+                   "a take: motion and poses of every frame, with --all of every fish, to play and edit later")
       ->type_name("FILE.take");
+  command->add_flag("--keep-video", options->keep_video, "keep the camera's pictures beside the take: FILE.take.mkv");
   command->add_option("--overlay", options->overlay, "video with outline, midline and landmarks")
       ->type_name("FILE.mp4");
   command->add_option("--json", options->json, "report of the run ('-' = standard output)")->type_name("FILE");

@@ -9,7 +9,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/cast.h"
@@ -19,6 +21,8 @@
 #include "app/export/report.h"
 #include "app/pacer.h"
 #include "app/session.h"
+#include "app/take/from_session.h"
+#include "app/take/take_recording.h"
 #include "app/ui/backdrop.h"
 #include "app/ui/hud.h"
 #include "app/ui/overlay.h"
@@ -41,6 +45,9 @@ struct Options {
   std::string layout = "beside";
   std::string info_text = kDefaultInfo;
   std::string record_to = "neontetra";
+  std::string take;
+  double pre_record_s = 5;
+  bool keep_video = false;
   std::string json;
 };
 
@@ -55,9 +62,15 @@ class Live {
         overlay_(camera_pane_),
         backdrop_(options.backdrop, actor_pane_, session_),
         hud_(options.info_text),
+        past_(static_cast<int>(options.pre_record_s * session_.info().fps) * session_.capture().fish_count()),
         display_(
             open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height)),
-        pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {}
+        pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {
+    if (options.take.empty()) return;
+    TakeInfo info = take_info(session_, std::filesystem::path(options.take).stem().string());
+    info.character = cast_.character_name();
+    take_.emplace(options.take, info, options.keep_video);
+  }
 
   void run() {
     last_draw_ns_ = steady_now_ns();
@@ -68,7 +81,8 @@ class Live {
       draw();
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
-    if (recording_ != nullptr) recording_->finish();
+    if (recording_ != nullptr) end_recording();
+    if (take_) take_->finish(), std::fprintf(stderr, "%s\n", take_->summary().c_str());
     expect_frames(session_);
     if (!options_.json.empty()) write_text(options_.json, pretty(report_json(session_)));
     std::fprintf(stderr, "%s; %lld dropped\n", summary_line(session_.statistics()).c_str(),
@@ -121,11 +135,22 @@ class Live {
 
   void toggle_recording() {
     if (recording_ != nullptr) {
-      recording_->finish();
-      recording_.reset();
-    } else {
-      recording_ = std::make_unique<Recording>(options_.record_to, session_, scene_);
+      end_recording();
+      return;
     }
+    const std::vector<TakeFrame> past = past_.frames();
+    const double past_s =
+        past.empty() ? 0 : static_cast<double>(past.back().frame - past.front().frame + 1) / session_.info().fps;
+    recording_ = std::make_unique<Recording>(
+        Recording::Settings{options_.record_to, cast_.character_name(), options_.keep_video}, session_, scene_, past);
+    std::fprintf(stderr, "recording %s.take (with the last %.1f s), .csv and .mp4\n", recording_->name().c_str(),
+                 past_s);
+  }
+
+  void end_recording() {
+    recording_->finish();
+    std::fprintf(stderr, "recorded %s\n", recording_->summary().c_str());
+    recording_.reset();
   }
 
   bool frame_due() { return session_.info().live ? session_.camera().ready() : pacer_.due(steady_now_ns()); }
@@ -143,11 +168,21 @@ class Live {
     cast_.see(session_);
     if (options_.layout != "alone") overlay_.update(session_, true);
     backdrop_.update(session_);
-    if (recording_ != nullptr) {
-      compose();
-      recording_->add(session_, scene_);
-    }
+    record();
     return true;
+  }
+
+  // The past is kept while nothing is recorded: what a recording holds already does not come into the next one.
+  void record() {
+    const std::span<const TakeFrame> rows = rows_.read(session_);
+    if (take_) take_->add(session_, rows);
+    if (recording_ == nullptr) {
+      for (const TakeFrame& row : rows) past_.add(row);
+      return;
+    }
+    past_.clear();
+    compose();
+    recording_->add(session_, scene_, rows);
   }
 
   void compose() {
@@ -169,9 +204,10 @@ class Live {
     compose();
     hud_.drawn();
     if (hud_.due(now_ns)) {
-      hud_.update(now_ns, session_.statistics(),
-                  {std::string(paused_ ? ", paused" : "") + (recording_ != nullptr ? ", recording" : ""),
-                   cast_.character_name(), kKeys});
+      hud_.update(
+          now_ns, session_.statistics(),
+          {std::string(paused_ ? ", paused" : "") + (recording_ != nullptr ? ", recording " + recording_->name() : ""),
+           cast_.character_name(), kKeys});
     }
     hud_.draw(scene_);
     display_->draw(scene_);
@@ -184,11 +220,14 @@ class Live {
   Overlay overlay_;
   Backdrop backdrop_;
   Hud hud_;
+  PreRecord past_;
   std::unique_ptr<Display> display_;
   Pacer pacer_;
   std::vector<InputEvent> events_;
   Scene scene_;
   std::unique_ptr<Recording> recording_;
+  std::optional<TakeRecording> take_;
+  FishRows rows_;
   bool paused_ = false, quit_ = false;
   int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
 };
@@ -200,7 +239,7 @@ void check(const Options& options) {
   std::vector<std::string> inputs = inputs_of(options.capture);
   inputs.insert(inputs.end(), options.cast.characters.begin(), options.cast.characters.end());
   inputs.push_back(options.backdrop.path);
-  check_outputs(inputs, {options.json});
+  check_outputs(inputs, {options.json, options.take});
 }
 
 }  // namespace
@@ -229,8 +268,17 @@ void add_live(CLI::App& app, Action& action) {
           },
           std::string("the lines in the window, '' for none; filled in: ") + kInfoNames)
       ->type_name("TEXT");
-  command->add_option("--record-to", options->record_to, "what r records: PREFIX-1.csv and PREFIX-1.mp4, then -2, ...")
+  command
+      ->add_option("--record-to", options->record_to,
+                   "what r records: PREFIX-1.take, PREFIX-1.csv and PREFIX-1.mp4, then -2, ...")
       ->type_name("PREFIX");
+  command
+      ->add_option("--pre-record", options->pre_record_s,
+                   "seconds before r was pressed that are recorded too, in the take (default 5)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 60.0));
+  command->add_option("--take", options->take, "record all of the run in a take")->type_name("FILE.take");
+  command->add_flag("--keep-video", options->keep_video, "keep the camera's pictures beside each take: FILE.take.mkv");
   command->add_option("--json", options->json, "report of the run at its end ('-' = standard output)")
       ->type_name("FILE");
   command->footer(std::string("Keys: ") + kKeys + "\nExample: neontetra live -c sim --character carp.ntchar");

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/cli.h"
+#include "app/export/png.h"
 #include "app/export/report.h"
 #include "app/take/take.h"
 #include "app/text_file.h"
@@ -22,7 +23,7 @@ constexpr const char* kBin = ".deleted-takes";
 struct Options {
   std::vector<std::string> paths{"."};
   bool json = false, discard = false, repair = false;
-  std::string name, tags, notes, trim, join;
+  std::string name, tags, notes, trim, join, thumbnails;
 };
 
 // Folders stand for the takes in them.
@@ -51,6 +52,17 @@ Take open(const std::string& path, Take::Access access) {
   return take;
 }
 
+// The camera's pictures beside a take; empty where they were not kept.
+std::string video_of(const std::string& path, const TakeInfo& info) {
+  return info.video.empty() ? "" : (fs::path(path).parent_path() / fs::path(info.video).filename()).string();
+}
+
+Json video_json(const std::string& path, const TakeInfo& info) {
+  const std::string video = video_of(path, info);
+  if (video.empty()) return nullptr;
+  return {{"file", video}, {"there", fs::exists(video)}, {"first_frame", info.video_first}};
+}
+
 Json as_json(const std::string& path, const TakeSummary& take) {
   return {{"file", path},
           {"name", take.info.name},
@@ -63,6 +75,8 @@ Json as_json(const std::string& path, const TakeSummary& take) {
           {"working_size", {{"width", take.info.width}, {"height", take.info.height}}},
           {"fps", take.info.fps},
           {"character", take.info.character},
+          {"px_per_mm", take.info.px_per_mm > 0 ? Json(take.info.px_per_mm) : Json(nullptr)},
+          {"video", video_json(path, take.info)},
           {"tags", take.info.tags},
           {"notes", take.info.notes}};
 }
@@ -87,7 +101,9 @@ void list(const std::vector<std::string>& files, bool json) {
     std::snprintf(line, sizeof line, "  %7.1f s  %6lld frames, %lld with a pose  %d fish  %s", take.seconds,
                   static_cast<long long>(take.frames), static_cast<long long>(take.posed), take.fish,
                   take.info.created.c_str());
-    text += file + line + "  " + take.info.name + (take.info.tags.empty() ? "" : "  [" + take.info.tags + "]") + "\n";
+    const std::string video = video_of(file, take.info);
+    text += file + line + "  " + take.info.name + (take.info.tags.empty() ? "" : "  [" + take.info.tags + "]") +
+            (video.empty() ? "" : (fs::exists(video) ? "  with video" : "  its video is missing")) + "\n";
   }
   write_text("-", json ? pretty(all) : text);
   if (!bad.empty()) throw UserError(bad);
@@ -145,15 +161,29 @@ void join(const std::vector<std::string>& files, const std::string& out) {
     }
     next_frame = last_frame, next_time_ns = last_time_ns;
   }
+  info.video.clear();
   Take joined = Take::create(out, info);
   joined.append(frames);
   joined.close();
 }
 
+// To its take in the bin, under the take's name there.
+void move_video(const std::string& video, const fs::path& take) {
+  const fs::path to = take.string() + fs::path(video).extension().string();
+  std::error_code error;
+  fs::rename(video, to, error);
+  if (error) throw UserError(video + ": cannot be moved to " + to.string() + ": " + error.message());
+  Take moved = Take::open(take.string(), Take::Access::edit);
+  TakeInfo info = moved.info();
+  info.video = to.filename().string();
+  moved.set_info(info);
+  std::fprintf(stderr, "%s: moved to %s\n", video.c_str(), to.c_str());
+}
+
 // Into a folder beside it, from where it can be taken back.
 void discard(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
-    open(file, Take::Access::edit);  // nobody is writing to it
+    const std::string video = video_of(file, open(file, Take::Access::edit).info());  // nobody is writing to it
     const fs::path bin = fs::path(file).parent_path() / kBin;
     fs::create_directories(bin);
     fs::path to = bin / fs::path(file).filename();
@@ -163,6 +193,7 @@ void discard(const std::vector<std::string>& files) {
     fs::rename(file, to, error);
     if (error) throw UserError(file + ": cannot be moved to " + to.string() + ": " + error.message());
     std::fprintf(stderr, "%s: moved to %s\n", file.c_str(), to.c_str());
+    if (!video.empty() && fs::exists(video)) move_video(video, to);
   }
 }
 
@@ -175,14 +206,39 @@ void repair(const std::vector<std::string>& files) {
   }
 }
 
+// All thumbnails side by side.
+void write_thumbnails(const std::vector<std::string>& files, const std::string& out) {
+  if (files.size() != 1) throw UserError("--thumbnails: of one take at a time", 2);
+  std::vector<ThumbnailPixels> pictures;
+  for (const Thumbnail& thumbnail : open(files.front(), Take::Access::read).thumbnails()) {
+    ThumbnailPixels pixels = thumbnail_pixels(thumbnail.bmp);
+    if (!pixels.rgb.empty() && (pictures.empty() || pixels.height == pictures.front().height))
+      pictures.push_back(std::move(pixels));
+  }
+  if (pictures.empty()) throw UserError(files.front() + ": there are no thumbnails in it");
+  std::vector<uint8_t> rgb;
+  int width = 0;
+  for (const ThumbnailPixels& p : pictures) width += p.width;
+  for (int y = 0; y < pictures.front().height; ++y) {
+    for (const ThumbnailPixels& p : pictures)
+      rgb.insert(rgb.end(), p.rgb.begin() + y * p.width * 3, p.rgb.begin() + (y + 1) * p.width * 3);
+  }
+  Picture sheet;
+  sheet.pixels = rgb.data(), sheet.width = width, sheet.height = pictures.front().height, sheet.stride = 3 * width;
+  sheet.format = PixelFormat::rgb8;
+  write_png(out, sheet);
+}
+
 void takes(const Options& options) {
-  const int actions = static_cast<int>(options.discard) + static_cast<int>(options.repair) +
-                      static_cast<int>(!options.trim.empty()) + static_cast<int>(!options.join.empty());
-  if (actions > 1) throw UserError("takes: one of --trim, --join, --delete, --repair at a time", 2);
+  const int actions = static_cast<int>(!options.thumbnails.empty()) + static_cast<int>(options.discard) +
+                      static_cast<int>(options.repair) + static_cast<int>(!options.trim.empty()) +
+                      static_cast<int>(!options.join.empty());
+  if (actions > 1) throw UserError("takes: one of --trim, --join, --delete, --repair, --thumbnails at a time", 2);
   const std::vector<std::string> files = files_of(options.paths);
   const bool changes = !options.name.empty() || !options.tags.empty() || !options.notes.empty();
   if (changes) change_info(files, options);
-  if (options.discard) discard(files);
+  if (!options.thumbnails.empty()) write_thumbnails(files, options.thumbnails);
+  else if (options.discard) discard(files);
   else if (options.repair) repair(files);
   else if (!options.trim.empty()) trim(files, options.trim);
   else if (!options.join.empty()) join(options.paths, options.join);
@@ -203,7 +259,9 @@ void add_takes(CLI::App& app, Action& action) {
   command->add_option("--trim", options->trim, "keep these frames only")->type_name("FIRST:LAST");
   command->add_option("--join", options->join, "one after the other, in the order named, into a new take")
       ->type_name("FILE");
-  command->add_flag("--delete", options->discard, "move to the folder .deleted-takes beside them");
+  command->add_option("--thumbnails", options->thumbnails, "the take's small pictures side by side in one picture")
+      ->type_name("FILE.png");
+  command->add_flag("--delete", options->discard, "move to the folder .deleted-takes beside them, with their videos");
   command->add_flag("--repair", options->repair, "save what can be read of a damaged take to FILE-repaired.take");
   command->footer("Example: neontetra takes --trim 30:600 noon.take");
   command->callback([&action, options] { action = [options] { takes(*options); }; });

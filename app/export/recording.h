@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `live` records between two presses of r: PREFIX-N.csv (poses) and PREFIX-N.mp4 (the window, without the HUD), N = 1
-// or the next that is free.
+// What `live` records between two presses of r: PREFIX-N.csv (poses), PREFIX-N.mp4 (the window, without the HUD) and
+// PREFIX-N.take, which begins with the frames of the past seconds; N = 1 or the next that is free.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,16 +8,26 @@
 #include "app/export/film.h"
 #include "app/export/pose_csv.h"
 #include "app/session.h"
+#include "app/take/from_session.h"
+#include "app/take/take_recording.h"
 
 namespace nt {
 
 class Recording {
  public:
-  Recording(const std::string& prefix, Session& session, const Scene& scene)
-      : Recording(free_name(prefix), session, scene, 0) {}
+  struct Settings {
+    std::string prefix, character;
+    bool keep_video = false;
+  };
+  Recording(const Settings& settings, Session& session, const Scene& scene, std::vector<TakeFrame> past)
+      : Recording(settings, free_name(settings.prefix), session, scene, std::move(past)) {}
 
-  // Once a video frame.
-  void add(Session& session, const Scene& scene) {
+  const std::string& name() const { return name_; }
+  std::string summary() const { return take_.summary(); }
+
+  // Once a video frame; `rows`: of the take.
+  void add(Session& session, const Scene& scene, std::span<const TakeFrame> rows) {
+    take_.add(session, rows);
     csv_.add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(), session.capture().order());
     // Frames that were dropped are filled, so the video keeps the fish's own speed.
     const uint64_t sequence = session.frame().sequence;
@@ -25,24 +35,37 @@ class Recording {
     last_ = static_cast<int64_t>(sequence);
   }
   void finish() {
+    take_.finish();
     csv_.close();
     csv_.look_back();
     film_.finish();
   }
 
  private:
-  Recording(const std::string& name, Session& session, const Scene& scene, int /* the name is final */)
-      : csv_(name + ".csv", session.scale(), session.calibration()),
+  Recording(const Settings& settings, const std::string& name, Session& session, const Scene& scene,
+            std::vector<TakeFrame> past)
+      : name_(name),
+        take_(name + ".take", described(session, name, settings.character), settings.keep_video, std::move(past)),
+        csv_(name + ".csv", session.scale(), session.calibration()),
         film_(name + ".mp4", "", scene.width(), scene.height(), session.info().fps) {}
+
+  static TakeInfo described(const Session& session, const std::string& name, const std::string& character) {
+    TakeInfo info = take_info(session, std::filesystem::path(name).filename().string());
+    info.character = character;
+    return info;
+  }
 
   // PREFIX-N with the smallest N that no file has yet: an earlier recording is never overwritten.
   static std::string free_name(const std::string& prefix) {
     for (int n = 1;; ++n) {
       const std::string name = prefix + "-" + std::to_string(n);
-      if (!std::filesystem::exists(name + ".csv") && !std::filesystem::exists(name + ".mp4")) return name;
+      const auto is_free = [&](const char* ending) { return !std::filesystem::exists(name + ending); };
+      if (is_free(".csv") && is_free(".mp4") && is_free(".take") && is_free(".take.mkv")) return name;
     }
   }
 
+  std::string name_;
+  TakeRecording take_;
   PoseCsv csv_;
   Film film_;
   int64_t last_ = -1;  // sequence number of the frame added last

@@ -23,18 +23,19 @@ TakeInfo take_info(const Session& session, const std::string& name) {
   info.name = name, info.camera = camera.name, info.created = utc_now();
   info.source_width = camera.source_width, info.source_height = camera.source_height;
   info.width = camera.width, info.height = camera.height;
-  info.fps = camera.fps;
+  info.fps = camera.fps, info.px_per_mm = session.calibration().px_per_mm;
   return info;
 }
 
-TakeFrame take_frame(Session& session) {
-  Capture& capture = session.capture();
+TakeFrame take_frame(Session& session, int fish) {
+  const Capture& capture = session.capture();
   TakeFrame frame;
-  frame.frame = session.frame_index();
+  frame.frame = static_cast<int64_t>(session.frame().sequence);
+  frame.fish = fish == Capture::kTarget ? 0 : fish;
   frame.flags = session.report().flags;
-  frame.init_len = capture.init_len();
-  frame.motion = capture.motion();
-  frame.pose = capture.pose();
+  frame.init_len = capture.init_len(fish);
+  frame.motion = capture.motion(fish);
+  frame.pose = capture.pose(fish);
   frame.motion.time_ns = session.frame().timestamp_ns;
   frame.motion.status = frame.pose.status;
   return frame;

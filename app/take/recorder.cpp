@@ -8,8 +8,8 @@
 
 namespace nt {
 
-TakeRecorder::TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms)
-    : take_(Take::create(path, info)), ring_(kRingFrames), period_ms_(period_ms) {
+TakeRecorder::TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms, std::vector<TakeFrame> past)
+    : take_(Take::create(path, info)), ring_(kRingFrames), past_(std::move(past)), period_ms_(period_ms) {
   batch_.reserve(kRingFrames);
   thread_ = std::thread([this] { store(); });
 }
@@ -35,17 +35,30 @@ void TakeRecorder::add(const TakeFrame& frame) {
 
 bool TakeRecorder::half_full() const { return written_.load() - stored_.load() >= kRingFrames / 2; }
 
+void TakeRecorder::add_thumbnail(Thumbnail thumbnail) {
+  const std::lock_guard lock(mutex_);
+  thumbnails_.push_back(std::move(thumbnail));
+}
+
 void TakeRecorder::commit() {
+  std::vector<Thumbnail> thumbnails;
+  {
+    const std::lock_guard lock(mutex_);
+    thumbnails.swap(thumbnails_);
+  }
   const uint64_t written = written_.load(std::memory_order_acquire);
   uint64_t stored = stored_.load(std::memory_order_relaxed);
   batch_.clear();
   for (; stored < written; ++stored) batch_.push_back(ring_[stored % kRingFrames]);
   stored_.store(stored, std::memory_order_release);
   take_.append(batch_);
+  take_.add_thumbnails(thumbnails);
 }
 
 void TakeRecorder::store() {
   try {
+    take_.append(past_);
+    past_ = {};
     for (bool last = false; !last;) {
       {
         std::unique_lock lock(mutex_);
@@ -85,9 +98,11 @@ void PreRecord::add(const TakeFrame& frame) {
   ++count_;
 }
 
-void PreRecord::give_to(TakeRecorder& recorder) const {
+std::vector<TakeFrame> PreRecord::frames() const {
+  std::vector<TakeFrame> frames;
   const uint64_t held = std::min<uint64_t>(count_, ring_.size());
-  for (uint64_t i = count_ - held; i < count_; ++i) recorder.add(ring_[i % ring_.size()]);
+  for (uint64_t i = count_ - held; i < count_; ++i) frames.push_back(ring_[i % ring_.size()]);
+  return frames;
 }
 
 }  // namespace nt

@@ -20,13 +20,17 @@ namespace nt {
 class TakeRecorder {
  public:
   static constexpr int kRingFrames = 2048;
-  // Throws UserError when the file cannot be made. `period_ms` between two commits.
-  TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms = 1000);
+  static constexpr int kPeriod_ms = 1000;
+  // Throws UserError when the file cannot be made. `period_ms` between two commits. `past`: frames that come first.
+  TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms = kPeriod_ms,
+               std::vector<TakeFrame> past = {});
   ~TakeRecorder();
   TakeRecorder(const TakeRecorder&) = delete;
   TakeRecorder& operator=(const TakeRecorder&) = delete;
 
   void add(const TakeFrame& frame);
+  // Stored with the next frames; allocates. Seldom: a few a recording.
+  void add_thumbnail(Thumbnail thumbnail);
   int64_t not_recorded() const { return not_recorded_; }
   std::string failure();  // one line; empty while all is well
   void finish();          // throws UserError with failure()'s line
@@ -37,12 +41,13 @@ class TakeRecorder {
   bool half_full() const;
 
   Take take_;
-  std::vector<TakeFrame> ring_, batch_;
+  std::vector<TakeFrame> ring_, batch_, past_;
+  std::vector<Thumbnail> thumbnails_;             // not yet stored
   std::atomic<uint64_t> written_{0}, stored_{0};  // frames put in, frames taken out
   std::atomic<bool> stop_{false}, failed_{false};
   int64_t not_recorded_ = 0;
   int period_ms_;
-  std::mutex mutex_;  // of failure_ and of the thread's sleep
+  std::mutex mutex_;  // of failure_, thumbnails_ and of the thread's sleep
   std::condition_variable wake_;
   std::string failure_;
   std::thread thread_;
@@ -54,7 +59,7 @@ class PreRecord {
   explicit PreRecord(int frames) : ring_(static_cast<std::size_t>(frames)) {}
   void add(const TakeFrame& frame);
   void clear() { count_ = 0; }
-  void give_to(TakeRecorder& recorder) const;  // oldest first
+  std::vector<TakeFrame> frames() const;  // oldest first
 
  private:
   std::vector<TakeFrame> ring_;

@@ -48,11 +48,12 @@ bool read_frame(const Statement& row, const TakeInfo& info, TakeFrame& frame) {
 template <typename Info, typename Text, typename Integer, typename Real>
 void visit_info(Info& info, const Text& text, const Integer& integer, const Real& real) {
   text("name", info.name), text("camera", info.camera), text("character", info.character);
-  text("tags", info.tags), text("notes", info.notes), text("created", info.created);
+  text("tags", info.tags), text("notes", info.notes), text("created", info.created), text("video", info.video);
   integer("source_width", info.source_width), integer("source_height", info.source_height);
   integer("width", info.width), integer("height", info.height);
   integer("u_num", info.u_num), integer("l_num", info.l_num);
-  real("fps", info.fps);
+  integer("video_first", info.video_first);
+  real("fps", info.fps), real("px_per_mm", info.px_per_mm);
 }
 
 bool is_sane(const TakeInfo& info) {
@@ -293,6 +294,11 @@ void Take::trim(int64_t first, int64_t last) {
     database_->execute("BEGIN");
     database_->prepare("DELETE FROM frame WHERE frame < ? OR frame > ?").bind(1, first).bind(2, last).run();
     database_->prepare("UPDATE frame SET frame = frame - ?").bind(1, first).run();
+    if (has_thumbnails()) {
+      database_->prepare("DELETE FROM thumbnail WHERE frame < ? OR frame > ?").bind(1, first).bind(2, last).run();
+      database_->prepare("UPDATE thumbnail SET frame = frame - ?").bind(1, first).run();
+    }
+    database_->prepare("UPDATE info SET value = value - ? WHERE key = 'video_first'").bind(1, first).run();
     database_->execute("COMMIT; VACUUM;");
   } catch (const DatabaseError& error) {
     explain(error);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/take/database.h"
+#include "app/take/thumbnail.h"
 #include "core/landmarks/fish_pose.h"
 #include "core/motion/motion.h"
 
@@ -25,7 +26,10 @@ struct TakeInfo {
   int source_width = 0, source_height = 0;
   int width = 0, height = 0;  // working frame
   double fps = 0;
+  double px_per_mm = 0;  // source pixels; 0: not known
   int u_num = 3, l_num = 15;
+  std::string video;    // name of the camera's pictures beside the take; empty: not kept
+  int video_first = 0;  // the take's frame that its first picture shows
 };
 
 struct TakeFrame {
@@ -66,6 +70,8 @@ class Take {
   // The edit list, a line each (edits.h), kept beside the untouched recording.
   std::vector<std::string> edits();
   void set_edits(const std::vector<std::string>& lines);
+  void add_thumbnails(std::span<const Thumbnail> thumbnails);
+  std::vector<Thumbnail> thumbnails();  // in order
   // Keeps frames first..last and numbers them anew from 0.
   void trim(int64_t first, int64_t last);
   void close();  // to one file, synchronised; the destructor does without the check
@@ -76,6 +82,7 @@ class Take {
   void check();
   void read_info();
   void lock();
+  bool has_thumbnails();
   [[noreturn]] void explain(const DatabaseError& error) const;
 
   std::string path_;

@@ -58,8 +58,7 @@ TEST(PreRecord, KeepsTheLastFramesOldestFirst) {
   const TempDir dir;
   PreRecord past(10);
   for (int i = 0; i < 37; ++i) past.add(test_take_frame(i));
-  TakeRecorder recorder(dir / "a.take", test_take_info(), 20);
-  past.give_to(recorder);
+  TakeRecorder recorder(dir / "a.take", test_take_info(), 20, past.frames());
   recorder.add(test_take_frame(37));
   recorder.finish();
   const std::vector<TakeFrame> frames = Take::open(dir / "a.take", Take::Access::read).frames(0);

@@ -44,9 +44,11 @@ TEST(SkinFit, FindsWeightsThatExplainTheMotion) {
     for (std::size_t k = 0; k < kInfluences; ++k) {
       sum += skin[v].weights[k];
       EXPECT_GE(skin[v].weights[k], 0);
-      if (skin[v].weights[k] == 0) EXPECT_EQ(skin[v].joints[k], 0);
-      for (std::size_t m = 0; m < k; ++m)
-        if (skin[v].weights[k] > 0) EXPECT_NE(skin[v].joints[k], skin[v].joints[m]);
+      if (skin[v].weights[k] == 0) {
+        EXPECT_EQ(skin[v].joints[k], 0);
+        continue;
+      }
+      for (std::size_t m = 0; m < k; ++m) EXPECT_NE(skin[v].joints[k], skin[v].joints[m]);
     }
     EXPECT_NEAR(sum, 1, 1e-6);
     const SkinSample other = moved_by(bar, truth, 0.6f);

@@ -21,7 +21,11 @@ Actor::Actor(const Wardrobe& wardrobe, std::size_t costume, float size)
   for (std::size_t i = 0; i < wardrobe.size(); ++i) (void)wardrobe.fitting(i, measuring);
   memory_ = AlignedBlock(measuring.used());
   Arena arena(memory_.bytes());
-  for (std::size_t i = 0; i < wardrobe.size(); ++i) fittings_[i] = wardrobe.fitting(i, arena);
+  for (std::size_t i = 0; i < wardrobe.size(); ++i) {
+    fittings_[i] = wardrobe.fitting(i, arena);
+    const CharacterSkin* skin = wardrobe.skin(i);
+    if (skin != nullptr) packed_.resize(std::max(packed_.size(), 12 * skin->view(0).rest.size()));
+  }
 }
 
 void Actor::wear(std::size_t costume) {
@@ -63,13 +67,29 @@ void Actor::pose(float t, float dt_s, const Pane& pane) {
   fittings_[costume_]->pose(motion, after_gap_ ? 0 : dt_s, placement);
   after_gap_ = false;
   posed_ = true;
+  if (retarget().renderer_places()) pack();
+}
+
+void Actor::pack() {
+  Retarget& posed = *fittings_[costume_];
+  skin_ = wardrobe_->skin(costume_)->view(kFirstCharacterPicture + static_cast<uint32_t>(costume_));
+  const std::span<float> out(packed_.data(), 12 * skin_.rest.size());
+  posed.lattice()->pack(out);
+  skin_.lattice = out, skin_.origin = posed.origin(), skin_.up = posed.up();
 }
 
 void Actor::draw(Scene& scene) const {
   if (!posed_) return;
   const float gone = static_cast<float>(std::clamp(missed_ - kHeldFrames, 0, kFadingFrames)) / kFadingFrames;
   const Colour tint{1, 1, 1, 1 + (kFadedAlpha - 1) * gone};
-  add_posed(scene, character(), retarget(), kFirstCharacterPicture + static_cast<uint32_t>(costume_), tint);
+  const uint32_t id = kFirstCharacterPicture + static_cast<uint32_t>(costume_);
+  if (!retarget().renderer_places()) {
+    add_posed(scene, character(), retarget(), id, tint);
+    return;
+  }
+  Picture texture = character().texture;
+  texture.id = id;
+  scene.solid(texture, skin_, tint);
 }
 
 }  // namespace nt

@@ -42,11 +42,15 @@ class Actor {
   float zoom(const Pane& pane) const;  // scene pixels a character unit
 
  private:
+  void pack();
+
   const Wardrobe* wardrobe_;
   std::size_t costume_;
   float size_;
   AlignedBlock memory_;
   std::vector<Retarget*> fittings_;  // one a character, in memory_
+  LatticeSkin skin_;                 // where the renderer places the vertices
+  std::vector<float> packed_;        // of its lattice, as large as the largest
   Motion previous_, current_;
   float init_len_ = 0;      // 0: not seen yet
   int missed_ = 0;          // video frames without a pose since the last one

@@ -56,7 +56,7 @@ void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& c
 }
 
 Cast::Cast(const CastOptions& options, Session& session)
-    : wardrobe_(options.characters, options.mls, options.deformer),
+    : wardrobe_(options.characters, options.mls, options.deformer, options.renderer_places),
       school_(static_cast<std::size_t>(options.school)),
       delay_frames_(delay_frames(session.info().fps)) {
   const auto fish = static_cast<std::size_t>(session.capture().fish_count());

@@ -26,6 +26,7 @@ struct CastOptions {
   int school = 1;                       // drawings a fish: itself and its followers
   std::optional<MlsKind> mls;           // unset: as the character's file says
   std::optional<Deformer> deformer;     // unset: the lattice where the file has one
+  bool renderer_places = false;         // of lattices: their vertices, on the GPU
 };
 // With --max-fish, which is the capture's.
 void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture);

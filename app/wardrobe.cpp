@@ -44,11 +44,12 @@ LoadedCharacter load_character(const std::string& path) {
   return LoadedCharacter(authored.bytes, path, Limits{});
 }
 
-Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls,
-                   std::optional<Deformer> deformer) {
+Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind> mls, std::optional<Deformer> deformer,
+                   bool renderer_places) {
+  costumes_.reserve(paths.size());  // skins view their characters
   bool any_lattice = false;
   for (const std::string& path : paths) {
-    Costume costume{path, load_character(path), {}, nullptr};
+    Costume& costume = costumes_.emplace_back(Costume{path, load_character(path), {}, nullptr, nullptr});
     if (deformer == Deformer::lattice && costume.file.character().solid() &&
         !has_swimmers_lattice(costume.file.character())) {
       costume.file = with_lattice(std::move(costume.file), path);
@@ -56,6 +57,8 @@ Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind>
     RetargetSettings settings;
     const bool lattice = deformer != Deformer::mls && has_swimmers_lattice(costume.file.character());
     settings.deformer = lattice ? Deformer::lattice : Deformer::mls;
+    settings.vertices = !(lattice && renderer_places);
+    if (!settings.vertices) costume.skin = std::make_unique<CharacterSkin>(costume.file.character());
     any_lattice = any_lattice || lattice;
     settings.mls = mls.value_or(costume.file.character().deformer);
     Arena measuring;
@@ -65,7 +68,6 @@ Wardrobe::Wardrobe(const std::vector<std::string>& paths, std::optional<MlsKind>
     const Result<Retarget*> made = Retarget::create(arena, costume.file.character(), settings);
     if (!made.ok()) throw UserError(path + ": " + made.status().message);
     costume.prepared = made.value();
-    costumes_.push_back(std::move(costume));
   }
   if (deformer == Deformer::lattice && !any_lattice) {
     throw UserError("--deformer lattice is for 3D characters, and there is none; leave it out", 2);

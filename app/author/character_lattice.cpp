@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/aligned_block.h"
+#include "app/author/curve_skeleton.h"
 #include "core/character/retarget.h"
 #include "core/deform/lattice.h"
 #include "platform/camera.h"
@@ -113,6 +114,11 @@ LatticeAsset fish_lattice(const Character& c, const LatticeOptions& options) {
     markers.push_back({"control_" + std::to_string(k), {handles[k].x, handles[k].y, k < body ? z : heights[k]}});
   }
   return LatticeAsset(c, midline(c, z), markers, LatticeDrive::landmarks, options);
+}
+
+LatticeAsset limbed_lattice(const Character& c, const LatticeOptions& options) {
+  if (!c.solid()) throw UserError("only a 3D character can have a lattice; this one is a flat drawing", 2);
+  return LatticeAsset(c, curve_skeleton(mesh_of(c)), {}, LatticeDrive::markers, options);
 }
 
 std::string describe(const LatticeAsset& asset) {

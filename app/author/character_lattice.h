@@ -36,6 +36,9 @@ inline constexpr int kFishLatticeVertices = 450;
 
 LatticeAsset fish_lattice(const Character& character, const LatticeOptions& options);
 
+// With curves along its limbs (curve_skeleton.h) for a skeleton, and no markers: to be pulled at by hand.
+LatticeAsset limbed_lattice(const Character& character, const LatticeOptions& options);
+
 // "of 450 vertices, 1,300 tetrahedra, ...": one line for the user.
 std::string describe(const LatticeAsset& asset);
 

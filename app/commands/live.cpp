@@ -250,6 +250,7 @@ void add_live(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
   add_cast_options(*command, options->cast, options->capture);
+  options->cast.renderer_places = true;
   command
       ->add_option("--layout", options->layout,
                    "beside: camera left, character right; behind: character over the camera; alone: character only")

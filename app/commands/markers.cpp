@@ -8,17 +8,22 @@
 #include <optional>
 
 #include "app/author/character_file.h"
+#include "app/author/character_lattice.h"
 #include "app/author/skeleton_file.h"
 #include "app/author/triangle_mesh.h"
 #include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/report.h"
 #include "app/export/video_writer.h"
+#include "app/mocap/drag.h"
 #include "app/mocap/marker_choice.h"
 #include "app/mocap/marker_puppet.h"
 #include "app/mocap/mesh_view.h"
 #include "app/progress.h"
+#include "app/session.h"
 #include "app/text_file.h"
+#include "app/ui/window.h"
+#include "app/wardrobe.h"
 #include "platform/camera.h"
 #include "platform/linux/clock.h"
 
@@ -34,7 +39,7 @@ struct Options {
   int64_t frames = -1;
   float bone_weight = LatticeSettings{}.w_d;
   std::string embedding = "phong";
-  bool stacked = false, json = false;
+  bool stacked = false, json = false, drag = false;
 };
 
 struct Summary {
@@ -153,7 +158,9 @@ std::unique_ptr<MarkerPuppet> puppet_of(const Options& options, const MarkerFile
   puppet.solver.max_iterations = options.iterations;
   puppet.solver.w_d = options.bone_weight;
   if (!options.choice.axes.empty()) puppet.turns = {parse_axes(options.choice.axes)};
-  puppet.phong = options.embedding == "phong";
+  puppet.embedding = options.embedding == "phong"   ? Embedding::phong
+                     : options.embedding == "green" ? Embedding::green
+                                                    : Embedding::linear;
   const auto markers = chosen_markers(file, options.choice);
   const auto frame = static_cast<std::size_t>(options.choice.frame);
   if (character != nullptr) {
@@ -209,6 +216,42 @@ std::string line_of(const Json& json) {
   return text;
 }
 
+// A character with a lattice: as its file has it, or with curves along its limbs for a skeleton.
+LoadedCharacter character_to_pull(const Options& options) {
+  const std::string& path = options.character.empty() ? options.mesh : options.character;
+  LoadedCharacter file = load_character(path);
+  if (file.character().lattice.present()) return file;
+  const LatticeAsset asset = limbed_lattice(file.character(), {options.vertices, LatticeForm::arap});
+  std::fprintf(stderr, "%s: %s\n", path.c_str(), describe(asset).c_str());
+  Character character = file.character();
+  character.lattice = asset.view();
+  return LoadedCharacter(character_bytes(character), path, Limits{});
+}
+
+void drag(const Options& options) {
+  constexpr int kWindowWidth = 960, kWindowHeight = 720;
+  constexpr int64_t kFramePeriod_ns = 1'000'000'000 / 60;
+  const LoadedCharacter file = character_to_pull(options);
+  Drag drag(file.character(), kWindowWidth, kWindowHeight);
+  const std::unique_ptr<Display> display =
+      open_window("neontetra: pull, u: last pin goes, x: all go, q: quit", kWindowWidth, kWindowHeight);
+  std::vector<InputEvent> events;
+  Scene scene;
+  for (bool more = true; more && !interrupted();) {
+    const int64_t now_ns = steady_now_ns();
+    display->poll(events);
+    for (const InputEvent& event : events) {
+      const bool key = event.kind == InputEvent::Kind::key;
+      more = more && event.kind != InputEvent::Kind::quit && !(key && (event.key == 'q' || event.key == 27));
+      drag.handle(event);
+    }
+    (void)drag.step();
+    drag.draw(scene);
+    display->draw(scene);
+    sleep_until_ns(now_ns + kFramePeriod_ns);
+  }
+}
+
 void markers(const Options& options) {
   if (options.mesh.empty() == options.character.empty()) {
     throw UserError("markers: say what to move: --mesh MESH, or --character FILE.ntchar with a lattice", 2);
@@ -216,6 +259,11 @@ void markers(const Options& options) {
   if (!options.character.empty() && !options.skeleton.empty()) {
     throw UserError("markers: --skeleton goes with --mesh; a character's lattice has its own", 2);
   }
+  if (options.drag) {
+    if (!options.file.empty()) throw UserError("markers: --drag is without a recording; leave out its name", 2);
+    return drag(options);
+  }
+  if (options.file.empty()) throw UserError("markers: which recording? Or --drag to pull by hand", 2);
   check_outputs({options.file, options.mesh, options.skeleton, options.character}, {options.out, options.csv});
   const MarkerFile file = read_recording(options.file, options.choice);
   for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
@@ -233,9 +281,9 @@ void markers(const Options& options) {
 void add_markers(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("markers", "Move a mesh by recorded markers");
   auto options = std::make_shared<Options>();
-  command->add_option("file", options->file, "recorded markers: C3D, TRC, Qualisys TSV or CSV")
-      ->required()
-      ->type_name("FILE");
+  command->add_option("file", options->file, "recorded markers: C3D, TRC, Qualisys TSV or CSV")->type_name("FILE");
+  command->add_flag("--drag", options->drag,
+                    "in place of a recording: a window to pull at vertices and joints by hand");
   command->add_option("--mesh", options->mesh, "the mesh to move, standing in the pose of --frame")->type_name("MESH");
   command->add_option("--character", options->character, "or a character whose file has a lattice")
       ->type_name("FILE.ntchar");
@@ -254,9 +302,9 @@ void add_markers(CLI::App& app, Action& action) {
   command->add_option("--bone-weight", options->bone_weight, "how stiff bones are before the exact pass (default 2)")
       ->type_name("W")
       ->check(CLI::Range(0.0f, 100.0f));
-  command->add_option("--embedding", options->embedding, "linear or phong (default phong)")
+  command->add_option("--embedding", options->embedding, "linear, phong, or green as the paper has it (default phong)")
       ->type_name("KIND")
-      ->check(CLI::IsMember({"linear", "phong"}));
+      ->check(CLI::IsMember({"linear", "phong", "green"}));
   command->add_flag("--stacked", options->stacked, "the paper's stacked equations in place of the ARAP energy");
   command->add_option("--out", options->out, "a film of it")->type_name("VIDEO");
   command->add_option("--csv", options->csv, "the lattice's vertices, a row a frame")->type_name("FILE");

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "app/aligned_block.h"
+#include "app/author/green_coordinates.h"
 #include "app/author/lattice_binding.h"
+#include "core/deform/embed_green.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -118,13 +120,15 @@ void MarkerPuppet::bind_anew(const std::vector<Vec3>& mesh, const std::vector<Qu
 
 void MarkerPuppet::start(const std::vector<uint32_t>& mesh_triangles, const PuppetOptions& options) {
   Arena measure;
-  if (options.phong) PhongEmbedding::create(measure, embedding_, view_);
+  const bool phong = options.embedding == Embedding::phong;
+  if (phong) PhongEmbedding::create(measure, embedding_, view_);
   memory_ = std::make_unique<Memory>(Lattice::bytes_needed(view_) + measure.used());
   Arena arena(memory_->block.bytes());
   const auto made = Lattice::create(arena, view_, options.solver);
   if (!made.ok()) throw UserError(made.status().message);
   lattice_ = made.value();
-  if (options.phong) phong_ = PhongEmbedding::create(arena, embedding_, view_);
+  if (options.embedding == Embedding::green) green_ = green_embedding(embedding_, view_);
+  if (phong) phong_ = PhongEmbedding::create(arena, embedding_, view_);
   places_.resize(12 * embedding_.blocks());
   for (const uint32_t i : mesh_triangles) triangles_.push_back(slots_[i]);
 }
@@ -140,6 +144,8 @@ LatticeReport MarkerPuppet::step(std::span<const Vec3> file_frame) {
   const LatticeReport report = lattice_->step(targets_, seen_);
   if (phong_ != nullptr) {
     phong_->embed(lattice_->vertices(), places_);
+  } else if (!green_.empty()) {
+    embed_green(embedding_, green_, view_, lattice_->vertices(), places_);
   } else {
     embed_linear(embedding_, view_, lattice_->vertices(), places_);
   }

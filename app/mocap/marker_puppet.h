@@ -23,10 +23,12 @@
 
 namespace nt {
 
+enum class Embedding { linear, phong, green };
+
 struct PuppetOptions {
   LatticeOptions lattice;
   LatticeSettings solver;
-  bool phong = true;
+  Embedding embedding = Embedding::phong;
   std::vector<Quat> turns;  // to start the registration from; empty: all ways of laying axes on axes
 };
 
@@ -76,6 +78,7 @@ class MarkerPuppet {
   std::unique_ptr<Memory> memory_;
   Lattice* lattice_ = nullptr;
   PhongEmbedding* phong_ = nullptr;
+  std::vector<float> green_;  // coordinates, where that is the embedding
   std::vector<Vec3> targets_;
   std::vector<uint8_t> seen_;
   std::vector<float> places_;

@@ -46,10 +46,10 @@ LatticePose* LatticePose::create(Arena& arena, const Character& character) {
   return &self[0];
 }
 
-LatticeReport LatticePose::pose(std::span<const Vec2> handles) {
+LatticeReport LatticePose::pose(std::span<const Vec2> handles, bool vertices) {
   for (std::size_t k = 0; k < markers_.size(); ++k) markers_[k].x = handles[k].x, markers_[k].y = handles[k].y;
   const LatticeReport report = lattice_->step(markers_, seen_);
-  embedding_->embed(lattice_->vertices(), places_);
+  if (vertices) embedding_->embed(lattice_->vertices(), places_);
   return report;
 }
 

@@ -27,7 +27,10 @@ class LatticePose {
   static LatticePose* create(Arena& arena, const Character& character);
 
   void reset() { lattice_->reset(); }
-  LatticeReport pose(std::span<const Vec2> handles);
+  // Without `vertices` a renderer places them: see pack.
+  LatticeReport pose(std::span<const Vec2> handles, bool vertices = true);
+  // What a vertex shader needs to place them (core/scene/scene.h, LatticeSkin): 12 floats for each lattice vertex.
+  void pack(std::span<float> out) { embedding_->pack(lattice_->vertices(), out); }
 
   Vec3 place(std::size_t vertex) const {
     const float* p = &places_[3u * character_.lattice.slots[vertex]];

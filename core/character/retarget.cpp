@@ -318,16 +318,21 @@ void Retarget::smooth(Frame& frame, float dt_s) {
   frame = {{values[n], values[n + 1]}, values[n + 2] / arm};
 }
 
+void Retarget::place_vertices() {
+  const Vec2 right = right_of(up_);
+  for (Vec2& v : vertices_) v = origin_ + right * v.x + up_ * v.y;
+  if (lattice_ != nullptr) solid_.take(*lattice_, up_);
+  else solid_.pose({points_, body_count()}, up_);
+}
+
 void Retarget::place(const Frame& frame, const Placement& placement) {
   const det::SinCos a = det::sincos(frame.dir_rad);
   const Vec2 dir{a.cos, a.sin};
   const Vec2 up = dir * placement.zoom, right = right_of(dir) * placement.zoom;
   const Vec2 origin = placement.offset + frame.centre * placement.zoom;
   const auto scene = [&](Vec2 p) { return origin + right * p.x + up * p.y; };
-  zoom_ = placement.zoom;
-  for (Vec2& v : vertices_) v = scene(v);
-  if (lattice_ != nullptr) solid_.take(*lattice_, up);
-  else solid_.pose({points_, body_count()}, up);
+  zoom_ = placement.zoom, origin_ = origin, up_ = up;
+  if (!renderer_places()) place_vertices();
   ControlPoints& c = scene_points_;
   std::size_t at = 0;
   c.centre = scene(points_[at++]), c.head = scene(points_[at++]), c.tail = scene(points_[at++]);
@@ -346,7 +351,8 @@ void Retarget::deform() {
     mesh_->deform({points_, control_count_}, vertices_);
     return;
   }
-  (void)lattice_->pose({points_, control_count_});
+  (void)lattice_->pose({points_, control_count_}, settings_.vertices);
+  if (!settings_.vertices) return;
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     const Vec3 p = lattice_->place(v);
     vertices_[v] = {p.x, p.y};

@@ -54,6 +54,8 @@ struct RetargetSettings {
   // largest (0.29 of its rest area in a bend of +-0.9 rad with folded fins; 1 turns ten over) and draws no kinks.
   float mls_alpha = 1.5f;
   bool smooth = true;  // Kalman filter over the control points
+  // false, with a lattice: a renderer places them (LatticePose::pack); vertices(), solid() and distortion() mean nothing then.
+  bool vertices = true;
 };
 
 // Where the character goes: scene = offset + zoom * (Eq 15's position).
@@ -87,9 +89,13 @@ class Retarget {
   // gap that the filter cannot bridge takes the motion as it is.
   void pose(const Motion& motion, float dt_s, const Placement& placement);
 
-  std::span<const Vec2> vertices() const { return vertices_; }           // scene coordinates
-  const SolidPose& solid() const { return solid_; }                      // of a 3D character; empty for a flat one
-  const LatticePose* lattice() const { return lattice_; }                // null with another deformer
+  std::span<const Vec2> vertices() const { return vertices_; }  // scene coordinates
+  const SolidPose& solid() const { return solid_; }             // of a 3D character; empty for a flat one
+  const LatticePose* lattice() const { return lattice_; }       // null with another deformer
+  LatticePose* lattice() { return lattice_; }
+  bool renderer_places() const { return lattice_ != nullptr && !settings_.vertices; }
+  Vec2 origin() const { return origin_; }  // of the local frame, and its y of one character unit; scene coordinates
+  Vec2 up() const { return up_; }
   const ControlPoints& control_points() const { return scene_points_; }  // scene coordinates
   const BoneLengths& lengths() const { return lengths_; }
   // All control points that move the vertices, at rest and as posed (and filtered) last; character units, local frame.
@@ -128,6 +134,7 @@ class Retarget {
   void pose_fin(int index, float motion_open);
   void smooth(Frame& frame, float dt_s);
   void deform();
+  void place_vertices();
   void place(const Frame& frame, const Placement& placement);
 
   Character character_;
@@ -139,6 +146,7 @@ class Retarget {
   LatticePose* lattice_ = nullptr;  // null: mesh_ and solid_ alone
   DistortionMeter* meter_ = nullptr;
   float zoom_ = 1;  // of the last pose
+  Vec2 origin_, up_{0, -1};
   KalmanBank filter_;
   float last_dir_rad_ = 0;
   bool started_ = false;

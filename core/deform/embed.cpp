@@ -142,6 +142,15 @@ void PhongEmbedding::bend_edges() {
   }
 }
 
+void PhongEmbedding::pack(std::span<const Vec3> vertices, std::span<float> out) {
+  fit_gradients(vertices);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    float* to = &out[12 * i];
+    to[0] = vertices[i].x, to[1] = vertices[i].y, to[2] = vertices[i].z;
+    for (std::size_t k = 0; k < 9; ++k) to[3 + k] = gradient_[9 * i + k];
+  }
+}
+
 void PhongEmbedding::embed(std::span<const Vec3> vertices, std::span<float> out) {
   fit_gradients(vertices);
   bend_edges();

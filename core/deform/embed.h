@@ -40,6 +40,8 @@ class PhongEmbedding {
   // Null when the arena is measuring or full. Both views must outlive it.
   static PhongEmbedding* create(Arena& arena, const EmbeddingView& embedding, const LatticeView& lattice);
   void embed(std::span<const Vec3> vertices, std::span<float> out);
+  // What a vertex shader needs to do the same: for each lattice vertex its place and the columns of F, 12 floats.
+  void pack(std::span<const Vec3> vertices, std::span<float> out);
 
  private:
   struct Inverse {  // of sum w e e^T: symmetric

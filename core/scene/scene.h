@@ -32,6 +32,24 @@ struct Picture {
   uint64_t revision = 0;
 };
 
+// A mesh inside a control lattice (core/deform/embed.h), placed by the renderer: from one frame to the next only the lattice
+// changes. The first part is kept by the renderer under `id` and read again when `revision` changes.
+struct LatticeSkin {
+  uint32_t id = 0;
+  uint64_t revision = 0;
+  std::span<const uint16_t> corners;  // four lattice vertices for each mesh vertex
+  std::span<const float> weights;     // of the corners 1, 2, 3: three for each mesh vertex
+  std::span<const Vec3> rest;         // lattice vertices at rest, with x right, y up, z towards the viewer
+  std::span<const Vec3> normals;      // of the mesh vertices at rest
+  std::span<const Vec2> texcoords;
+  std::span<const uint32_t> triangles;
+  float low = 0, high = 1;  // heights of the mesh at rest
+  // Each frame, for each lattice vertex: its place and the columns of its deformation gradient, 12 floats.
+  std::span<const float> lattice;
+  bool phong = true;  // else linear
+  Vec2 origin, up;    // scene pixels: where the rest frame's origin lies, and its y, as long as one unit
+};
+
 enum class ItemKind : uint8_t { image, mesh, lines, points };
 
 struct SceneItem {
@@ -46,6 +64,7 @@ struct SceneItem {
   Colour colour;                      // lines, points; multiplies images and meshes
   float width_px = 1;                 // lines: thickness; points: diameter
   bool closed = false;                // lines: join the last to the first
+  const LatticeSkin* skin = nullptr;  // mesh: in place of positions to normals
 };
 
 inline constexpr int kMaxItems = 256;
@@ -77,6 +96,11 @@ class Scene {
     SceneItem item;
     item.kind = ItemKind::mesh, item.picture = texture, item.positions = positions, item.heights = heights;
     item.normals = normals, item.texcoords = texcoords, item.indices = indices, item.colour = tint;
+    add(item);
+  }
+  void solid(const Picture& texture, const LatticeSkin& skin, Colour tint = {}) {
+    SceneItem item;
+    item.kind = ItemKind::mesh, item.picture = texture, item.skin = &skin, item.colour = tint;
     add(item);
   }
   void lines(std::span<const Vec2> strip, Colour colour, float width_px, bool closed = false) {

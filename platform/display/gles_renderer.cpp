@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "platform/camera.h"
+#include "platform/display/gles_program.h"
 
 namespace nt {
 namespace {
@@ -31,62 +32,6 @@ void main() {
   gl_Position = vec4(at * canvas.xy + canvas.zw, depth, 1.0);
 }
 )";
-
-// A band or disc thinner than a display pixel is drawn one pixel wide and fainter, so that it does not break up.
-constexpr const char* kFragmentShader = R"(#version 300 es
-precision highp float;
-in vec2 v_uv;
-in float v_edge;
-in mediump vec4 v_colour;
-in mediump vec3 v_normal;
-uniform int shape;
-uniform float scale;  // display pixels a scene pixel
-uniform sampler2D picture;
-out vec4 fragment;
-void main() {
-  if (shape == 0) {
-    fragment = texture(picture, v_uv) * v_colour;
-    return;
-  }
-  if (shape == 3) {
-    vec4 texel = texture(picture, v_uv);
-    if (texel.a < 0.5) discard;
-    vec3 n = normalize(v_normal);
-    n = n.z < 0.0 ? -n : n;  // both sides are shown
-    float light = 0.52 + 0.58 * max(dot(n, vec3(-0.33, -0.42, 0.845)), 0.0);
-    fragment = vec4(min(texel.rgb * light, texel.aaa), texel.a) * v_colour;
-    return;
-  }
-  float distance_px = (shape == 1) ? abs(v_uv.x) : length(v_uv);
-  float cover = clamp((v_edge - distance_px) * scale + 0.5, 0.0, 1.0);
-  fragment = v_colour * min(cover, min(2.0 * v_edge * scale, 1.0));
-}
-)";
-
-unsigned compile(unsigned kind, const char* source) {
-  const unsigned shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  int ok = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-  if (ok == 0) throw UserError("OpenGL ES: this driver cannot compile GLSL ES 3.00 shaders; update it");
-  return shader;
-}
-
-unsigned link_program() {
-  const unsigned vertex = compile(GL_VERTEX_SHADER, kVertexShader);
-  const unsigned fragment = compile(GL_FRAGMENT_SHADER, kFragmentShader);
-  const unsigned program = glCreateProgram();
-  glAttachShader(program, vertex);
-  glAttachShader(program, fragment);
-  glLinkProgram(program);
-  glDeleteShader(vertex);
-  glDeleteShader(fragment);
-  int ok = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &ok);
-  if (ok == 0) throw UserError("OpenGL ES: this driver cannot link GLSL ES 3.00 shaders; update it");
-  return program;
-}
 
 struct GlFormat {
   unsigned internal, external;
@@ -117,7 +62,7 @@ float soft_margin(float scale) { return 1.0f / scale; }
 
 }  // namespace
 
-GlesRenderer::GlesRenderer() : program_(link_program()) {
+GlesRenderer::GlesRenderer() : program_(link_program(kVertexShader, kSceneFragmentShader)) {
   canvas_uniform_ = glGetUniformLocation(program_, "canvas");
   shape_uniform_ = glGetUniformLocation(program_, "shape");
   scale_uniform_ = glGetUniformLocation(program_, "scale");
@@ -174,8 +119,9 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   upload_buffers();
   glUseProgram(program_);
   const float flip = top_down ? 1.0f : -1.0f;
-  glUniform4f(canvas_uniform_, 2.0f / static_cast<float>(scene.width()),
-              flip * 2.0f / static_cast<float>(scene.height()), -1.0f, -flip);
+  const float canvas[4] = {2.0f / static_cast<float>(scene.width()), flip * 2.0f / static_cast<float>(scene.height()),
+                           -1.0f, -flip};
+  glUniform4fv(canvas_uniform_, 1, canvas);
   glUniform1f(scale_uniform_, fit.scale);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -183,6 +129,10 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   glDisable(GL_CULL_FACE);
   for (const Batch& batch : batches_) {
     if (batch.picture != nullptr) bind_texture(*batch.picture);
+    if (batch.skinned != nullptr) {
+      draw_skin(*batch.skinned, canvas);
+      continue;
+    }
     if (batch.shape == Shape::solid) {
       glEnable(GL_DEPTH_TEST);
       glClear(GL_DEPTH_BUFFER_BIT);
@@ -193,6 +143,15 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
     glDrawElements(GL_TRIANGLES, static_cast<int>(batch.count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
   }
+}
+
+// Its own program and buffers, then back to those of all others.
+void GlesRenderer::draw_skin(const SceneItem& item, const float* canvas) {
+  glEnable(GL_DEPTH_TEST);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  skins_.draw(*item.skin, item.colour, canvas);
+  glUseProgram(program_);
+  glBindVertexArray(vertex_array_);
 }
 
 void GlesRenderer::build(const Scene& scene, float scale) {
@@ -220,7 +179,7 @@ void GlesRenderer::build(const Scene& scene, float scale) {
 
 void GlesRenderer::open_batch(Shape shape, const Picture* picture) {
   if (picture == nullptr && !batches_.empty() && batches_.back().shape == shape) return;
-  batches_.push_back({shape, picture, indices_.size(), 0});
+  batches_.push_back({shape, picture, indices_.size(), 0, nullptr});
 }
 
 // Two triangles over four vertices in the order of a strip.
@@ -243,6 +202,11 @@ void GlesRenderer::add_image(const SceneItem& item) {
 }
 
 void GlesRenderer::add_mesh(const SceneItem& item) {
+  if (item.skin != nullptr && drawable(item.picture)) {
+    open_batch(Shape::solid, &item.picture);
+    batches_.back().skinned = &item;
+    return;
+  }
   const std::size_t count = item.positions.size();
   if (!drawable(item.picture) || count == 0 || item.texcoords.size() != count) return;
   const bool solid = item.heights.size() == count && item.normals.size() == count;

@@ -17,6 +17,7 @@
 
 #include "core/scene/scene.h"
 #include "platform/display/canvas_fit.h"
+#include "platform/display/lattice_mesh.h"
 
 namespace nt {
 
@@ -48,6 +49,7 @@ class GlesRenderer {
     Shape shape;
     const Picture* picture;
     std::size_t first, count;  // of indices_
+    const SceneItem* skinned;  // drawn by skins_ in place of them
   };
   struct Texture {
     uint32_t id;
@@ -60,6 +62,7 @@ class GlesRenderer {
   void build(const Scene& scene, float scale);
   void add_image(const SceneItem& item);
   void add_mesh(const SceneItem& item);
+  void draw_skin(const SceneItem& item, const float* canvas);
   void raise(const SceneItem& item, std::size_t first_vertex);
   void add_lines(const SceneItem& item, float scale);
   void add_points(const SceneItem& item, float scale);
@@ -80,6 +83,7 @@ class GlesRenderer {
   std::vector<Vec2> strip_;
   std::vector<Texture> textures_;
   std::vector<uint8_t> staging_;
+  LatticeMeshes skins_;
 };
 
 }  // namespace nt

@@ -19,8 +19,9 @@ constexpr float kTravelFrames = 5.0f;
 // What has been there for less, or is smaller, may be a part of this fish.
 constexpr int kKnownFrames = 10;
 constexpr float kFishBeside = 0.35f;
-constexpr float kCaudalFin = 0.2f;  // of the axis that is seen without it
-constexpr float kCutWidth = 1.5f;   // pixels, either side of the line that opens a ring
+constexpr float kNearlyClosed = 0.6f;  // of the axis, from head to tail
+constexpr float kCaudalFin = 0.2f;     // of the axis that is seen without it
+constexpr float kCutWidth = 1.5f;      // pixels, either side of the line that opens a ring
 
 }  // namespace
 
@@ -77,7 +78,7 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, const Swimmer& swimmer)
   touching_ = part(tools, fish, index);
   tools.clock.lap(Stage::refine);
   trace(tools, fish);
-  const bool ring = is_ring(fish);
+  const bool ring = may_be_closed() && is_ring(fish);
   if (ring && open_ring(fish, predicted(swimmer))) trace(tools, fish);
   const bool cut = measure_contour(luma.width, luma.height, tools.frame_from_reference);
   tools.clock.lap(Stage::outline);
@@ -93,6 +94,12 @@ void FishTrack::trace(const CaptureTools& tools, const FishMask& fish) {
   contour_high_water = max_int(contour_high_water, contour_count);
 }
 
+// A fish that was straight a moment ago is no ring now: what its outline encloses lies between it and remains of its shadow.
+bool FishTrack::may_be_closed() const {
+  if (!has_last_ || frames_without_pose_ > kForgetOrder) return true;
+  return length(last_axis_[0] - last_axis_[kOrderPoints - 1]) < kNearlyClosed * pose.axis_len;
+}
+
 // By Pick's theorem an outline of n border pixels and area A holds A + n / 2 + 1 pixels; what the mask lacks is a hole.
 bool FishTrack::is_ring(const FishMask& fish) const {
   const float enclosed = det::abs(polygon_area(points())) + 0.5f * static_cast<float>(contour_count) + 1.0f;
@@ -100,7 +107,7 @@ bool FishTrack::is_ring(const FishMask& fish) const {
 }
 
 // Where the head meets the tail an outline has no ends. They touch where they were last seen to come together: the ring is
-// cut there, along the ray from its middle between them. False without a pose to go by.
+// cut there, along the ray from its middle through the point halfway between them. False without a pose to go by.
 bool FishTrack::open_ring(const FishMask& fish, Vec2 moved) const {
   if (!has_last_ || frames_without_pose_ > kForgetOrder) return false;
   const Vec2 middle = polygon_moments(points()).centroid;

@@ -78,6 +78,7 @@ struct FishTrack {
   bool tail_may_be_outside(const CaptureTools& tools);
   bool measure_contour(int width, int height, const Similarity& frame_from_reference);
   void to_frame(const Similarity& frame_from_reference);
+  bool may_be_closed() const;
   bool is_ring(const FishMask& fish) const;
   PoseStatus find_pose(const CaptureTools& tools, Swimmer& swimmer);
   LandmarkHints hints(const CaptureTools& tools, const Swimmer& swimmer, std::span<Vec2> last) const;
@@ -90,6 +91,7 @@ struct FishTrack {
   bool has_last_ = false;
   bool touching_ = false;  // what was outlined holds a part of another one
   bool entering_ = true;  // it was cut by the frame's edge, or is new, and its tail has not been seen clear of the edge
+  bool opened_ = false;   // the last outline was a ring and has been cut
   bool fins_may_hide_ = false;  // of the last outline
   uint32_t last_swimmer_ = 0;
   int frames_without_pose_ = 0;

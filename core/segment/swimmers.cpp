@@ -140,13 +140,13 @@ void Swimmer::swim_on() {
 
 bool Swimmer::observe(const Box& whole, Vec2 centre, float area_px, float axis_len_px, bool touching,
                       int patience_frames) {
-  const float kMerged = touching ? 1.2f : 1.6f;  // fins that open add at most a third
-  constexpr float kAsLong = 0.1f;
-  constexpr float kShrunk = 0.6f;  // an axis drawn across a ring, not along the fish
+  constexpr float kMerged = 1.6f, kMergedTouching = 1.2f;  // fins that open add at most a third
+  constexpr float kShadow = 1.9f, kAsLong = 0.1f;  // as long as ever it has taken up remains of its shadow, not a fish
+  constexpr float kShrunk = 0.6f;                  // an axis drawn across a ring, not along the fish
   if (!whole_known_) whole_area_px_ = area_px, axis_len_px_ = axis_len_px, whole_known_ = true;
-  // As long as ever, it has taken up a part of its shadow, which is no other fish.
-  const bool as_long = !touching && det::abs(axis_len_px - axis_len_px_) < kAsLong * axis_len_px_;
-  const bool odd = (area_px > kMerged * whole_area_px_ && !as_long) || axis_len_px < kShrunk * axis_len_px_;
+  const bool as_long = det::abs(axis_len_px - axis_len_px_) < kAsLong * axis_len_px_;
+  const float most = touching ? kMergedTouching : as_long ? kShadow : kMerged;
+  const bool odd = area_px > most * whole_area_px_ || axis_len_px < kShrunk * axis_len_px_;
   if (odd && ++odd_frames_ <= patience_frames) {
     swim_on();
     return false;

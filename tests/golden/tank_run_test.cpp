@@ -21,18 +21,18 @@ struct Golden {
 };
 
 constexpr Golden kGolden[] = {
-    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "fa2a1e790d1e136d", "0081ad1de0c4a806",
-     "7b2ba7479b267950"},
-    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "f9f7ec970c561daf", "7968eb2cf8eadc54",
-     "7447cfecb7e33320"},
-    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "01c2f06979cfcddb", "186cbac56dfa8af7",
-     "3cd13bb6b7e68653"},
-    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "915ceb338501258f", "7f8ea19ece28136c",
-     "bf79a3e20a7a959f"},
+    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "3dcc1727493d6ff8", "b3a4779a74f8c541",
+     "d8691170fcd2f93d"},
+    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "ab87f5281340daa5", "0115244df2ca465b",
+     "b7da0b3c41bf8ccc"},
+    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "92e621055e707d65", "186cbac56dfa8af7",
+     "847de6df36a1d134"},
+    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "2f5c9778fbb8dc53", "87c931ddd73106af",
+     "e5182aacf5a2c059"},
     {"calm", nt::BackgroundKind::still, 120, 960, 544, "4b5cb26b8a3874dc", "4e330cc078839fb6", "7fd9667d39eec822",
-     "22edb003c5eb79b0"},
-    {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "f79b37aebd35f671", "304edef53bdc5f5a",
-     "ac4bab7b8e90b0fb"},
+     "cad0b5f7d37f9378"},
+    {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "6bb0c536ef08b9b5", "83fe39899187d078",
+     "e3f08b27917289ba"},
 };
 
 uint64_t hash_float(float v, uint64_t seed) {

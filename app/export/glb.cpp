@@ -16,7 +16,7 @@
 namespace nt {
 namespace {
 
-constexpr int kFitRounds = 4;
+constexpr int kFitRounds = 6;
 
 // The scene is the working frame itself.
 const Pane kFramePane{{-0.5f, -0.5f}, 1, 0, 0};

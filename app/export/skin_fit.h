@@ -36,7 +36,7 @@ std::vector<SkinVertex> fit_skin(std::span<const Vec2> vertices, std::span<const
 
 // Turns each joint, where it is, so that the skin comes nearest to `wanted`: joint by joint against what the others leave,
 // kTurnRounds times, from its bone's turn and held to it a little. The root keeps its own. Cost: vertices x influences x kTurnRounds.
-inline constexpr int kTurnRounds = 4;
+inline constexpr int kTurnRounds = 12;
 void fit_turns(std::span<const SkinVertex> skin, std::span<const Vec2> vertices, std::span<const Vec2> wanted,
                std::span<const RigJoint> joints, float length, std::span<JointPose> pose);
 

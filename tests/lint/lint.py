@@ -33,7 +33,7 @@ CORE_FORBIDDEN_CODE = [
 SCRIPT_SUFFIXES = {".h", ".cpp", ".cmake", ".py", ".sh", ".txt", ".vert", ".frag"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 MACHINE_NAMES = re.compile(r"/work/(main|shared|\.)|/home/\w+/|/tmp/")
-STRAY = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
+STRAY = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b|^(<{7}|>{7}) ", re.MULTILINE)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 
 

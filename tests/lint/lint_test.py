@@ -62,6 +62,7 @@ class LintTest(unittest.TestCase):
     def test_nothing_names_a_machine_or_is_unfinished(self):
         self.rejects("app/a.cpp", SPDX + "// see /" + "tmp/x\n", "one machine")
         self.rejects("app/a.cpp", SPDX + "// TO" + "DO later\n", "unfinished")
+        self.rejects("docs/A.md", "<" * 7 + " HEAD\n", "unfinished")
 
 
 if __name__ == "__main__":

@@ -140,23 +140,19 @@ void write_character_file(const std::string& path, std::span<const std::byte> by
   }
 }
 
-LoadedCharacter::LoadedCharacter(const std::string& path, const Limits& limits) {
-  std::error_code unused;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path, unused))
-    throw UserError("cannot read the character " + path + ": no such file, or no right to read it");
-  std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  open(std::as_bytes(std::span<const char>(bytes)), path, limits);
+LoadedCharacter::LoadedCharacter(const std::string& path, const Limits& limits) : file_(MappedFile::open(path)) {
+  if (!file_) throw UserError("cannot read the character " + path + ": no such file, or no right to read it");
+  open(file_->bytes(), path, limits);
 }
 
-LoadedCharacter::LoadedCharacter(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
-  open(bytes, name, limits);
+LoadedCharacter::LoadedCharacter(std::span<const std::byte> bytes, const std::string& name, const Limits& limits)
+    : memory_(bytes.size() + 1) {  // nothing has a place too
+  std::copy(bytes.begin(), bytes.end(), memory_.bytes().begin());
+  open(memory_.bytes().first(bytes.size()), name, limits);
 }
 
 void LoadedCharacter::open(std::span<const std::byte> bytes, const std::string& name, const Limits& limits) {
-  memory_ = AlignedBlock(bytes.size() + 1);  // an empty file has a place too
-  std::copy(bytes.begin(), bytes.end(), memory_.bytes().begin());
-  const Result<Character> opened = open_character(memory_.bytes().first(bytes.size()), limits);
+  const Result<Character> opened = open_character(bytes, limits);
   if (!opened.ok()) throw UserError(name + ": " + opened.status().message);
   character_ = opened.value();
 }

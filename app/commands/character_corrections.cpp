@@ -112,9 +112,11 @@ void save_character(const std::string& path, const Character& character, const C
   const std::string beside = corrections_path(path);
   // A file with the same content stays as it was written, comments and all.
   const bool as_before = exists(beside) && corrections_text(load_corrections(beside)) == corrections_text(corrections);
-  const bool none = corrections.empty() && !exists(beside);
   write_character_file(path, bytes);
-  if (!as_before && !none) save_corrections(beside, corrections);
+  if (as_before) return;
+  // Somebody's work, with its comments: out of the way, not gone.
+  if (exists(beside)) std::filesystem::rename(beside, beside + ".before");
+  if (!corrections.empty()) save_corrections(beside, corrections);
 }
 
 void edit_character(const std::string& path, const Character& character, const Corrections& corrections,

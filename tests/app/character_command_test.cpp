@@ -63,6 +63,10 @@ TEST_F(CharacterCommand, AFileOfCorrectionsByHandKeepsItsComments) {
   character(kCarp + " --out " + file_);
   EXPECT_EQ(read_text(notes_), "# my notes\nfins = 0   # it has none\n");
   EXPECT_FALSE(points(file_)["points"].contains("l_fin"));
+  character(kCarp + " --out " + file_ + " --corrections none");
+  EXPECT_TRUE(points(file_)["points"].contains("l_fin"));
+  EXPECT_FALSE(std::filesystem::exists(notes_));
+  EXPECT_EQ(read_text(notes_ + ".before"), "# my notes\nfins = 0   # it has none\n") << "nothing is lost";
   const std::string other = dir_ / "other.txt";
   std::ofstream(other) << "flip = yes\n";
   character(kCarp + " --out " + (dir_ / "b.ntchar") + " --corrections " + other);

@@ -21,6 +21,27 @@ std::size_t delay_frames(double fps) { return static_cast<std::size_t>(std::max(
 
 }  // namespace
 
+void add_deformer_options(CLI::App& command, std::optional<MlsKind>& mls, std::optional<Deformer>& deformer) {
+  const std::map<std::string, MlsKind> kinds = {
+      {"rigid", MlsKind::rigid}, {"similarity", MlsKind::similarity}, {"affine", MlsKind::affine}};
+  command
+      .add_option_function<std::string>(
+          "--mls", [&mls, kinds](const std::string& name) { mls = kinds.at(name); },
+          "how the drawing gives way between its control points: rigid keeps sizes, similarity lets parts "
+          "grow and shrink, affine lets them shear too (default: as the character's file says)")
+      ->type_name("rigid|similarity|affine")
+      ->check(CLI::IsMember({"rigid", "similarity", "affine"}));
+  const std::map<std::string, Deformer> deformers = {{"mls", Deformer::mls}, {"lattice", Deformer::lattice}};
+  command
+      .add_option_function<std::string>(
+          "--deformer", [&deformer, deformers](const std::string& name) { deformer = deformers.at(name); },
+          "mls: each vertex follows the control points; lattice: a 3D character keeps its volume and its bones' "
+          "lengths "
+          "(default: lattice where the file has one)")
+      ->type_name("mls|lattice")
+      ->check(CLI::IsMember({"mls", "lattice"}));
+}
+
 void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture) {
   command
       .add_option(
@@ -35,24 +56,7 @@ void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& c
   command.add_option("--max-fish", capture.max_fish, "follow so many fish at a time, a drawing for each (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, kMostFish));
-  const std::map<std::string, MlsKind> kinds = {
-      {"rigid", MlsKind::rigid}, {"similarity", MlsKind::similarity}, {"affine", MlsKind::affine}};
-  command
-      .add_option_function<std::string>(
-          "--mls", [&options, kinds](const std::string& name) { options.mls = kinds.at(name); },
-          "how the drawing gives way between its control points: rigid keeps sizes, similarity lets parts "
-          "grow and shrink, affine lets them shear too (default: as the character's file says)")
-      ->type_name("rigid|similarity|affine")
-      ->check(CLI::IsMember({"rigid", "similarity", "affine"}));
-  const std::map<std::string, Deformer> deformers = {{"mls", Deformer::mls}, {"lattice", Deformer::lattice}};
-  command
-      .add_option_function<std::string>(
-          "--deformer", [&options, deformers](const std::string& name) { options.deformer = deformers.at(name); },
-          "mls: each vertex follows the control points; lattice: a 3D character keeps its volume and its bones' "
-          "lengths "
-          "(default: lattice where the file has one)")
-      ->type_name("mls|lattice")
-      ->check(CLI::IsMember({"mls", "lattice"}));
+  add_deformer_options(command, options.mls, options.deformer);
 }
 
 Cast::Cast(const CastOptions& options, Session& session)

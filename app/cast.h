@@ -28,6 +28,8 @@ struct CastOptions {
   std::optional<Deformer> deformer;     // unset: the lattice where the file has one
   bool renderer_places = false;         // of lattices: their vertices, on the GPU
 };
+// --mls and --deformer: of a Wardrobe. Both must outlive the parsing.
+void add_deformer_options(CLI::App& command, std::optional<MlsKind>& mls, std::optional<Deformer>& deformer);
 // With --max-fish, which is the capture's.
 void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture);
 

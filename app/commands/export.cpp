@@ -67,12 +67,13 @@ void to_glb(Export& e) {
   GlbOptions glb;
   glb.length = e.options.length.value_or(1), glb.source_scale = e.scale(), glb.name = e.take().info.name;
   const GlbReport made = write_glb(e.options.out, *e.wardrobe, e.shown(), glb);
-  e.report["frame_of_reference"] = made.frame;
+  e.report["frame_of_reference"] = made.frame, e.report["deformer"] = made.deformer;
   e.report["vertices"] = made.vertices, e.report["joints"] = made.joints, e.report["keys"] = made.keys;
   e.report["skin_error_percent"] = {{"median", made.error_median}, {"p99", made.error_p99}, {"max", made.error_max}};
-  std::fprintf(stderr,
-               "skin: off by %.2f %% of the body's length in the median, %.2f %% in 99 of 100, %.2f %% at most\n%s\n",
-               made.error_median, made.error_p99, made.error_max, made.frame.c_str());
+  std::fprintf(
+      stderr,
+      "skin: off our %s by %.2f %% of the body's length in the median, %.2f %% in 99 of 100, %.2f %% at most\n%s\n",
+      made.deformer.c_str(), made.error_median, made.error_p99, made.error_max, made.frame.c_str());
 }
 
 void to_mp4(Export& e) {
@@ -152,7 +153,8 @@ void export_take(const Options& options) {
   if (!format.all_fish) fish.resize(1);
   const std::vector<Performance> performances = performances_of(fish, options.take);
   std::optional<Wardrobe> wardrobe;
-  if (!options.take.characters.empty()) wardrobe.emplace(options.take.characters, std::nullopt);
+  if (!options.take.characters.empty())
+    wardrobe.emplace(options.take.characters, options.take.mls, options.take.deformer);
   Export job{options, fish, performances, wardrobe ? &*wardrobe : nullptr,
              report_of(options, fish.front(), performances.front())};
   format.write(job);

@@ -36,7 +36,7 @@ struct Options {
 class Player {
  public:
   Player(const TakeInfo& info, const Options& options, std::vector<Performance> performances)
-      : wardrobe_(options.take.characters, std::nullopt),
+      : wardrobe_(options.take.characters, options.take.mls, options.take.deformer),
         pane_(take_pane(info, std::max(1.0f, 640.0f / static_cast<float>(info.width)))),
         backdrop_(options.backdrop, pane_),
         troupe_(wardrobe_, std::move(performances), pane_),

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/cast.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -13,6 +14,7 @@ void add_take_options(CLI::App& command, TakeOptions& options) {
       .add_option("--character", options.characters,
                   "who swims it: a character file, a picture or a mesh; several are handed out to the fish in turn")
       ->type_name("FILE");
+  add_deformer_options(command, options.mls, options.deformer);
   command.add_option("--fish", options.fish, "this fish of the take only, from 0")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));

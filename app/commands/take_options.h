@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What export and play have in common: a take, its fish, who swims them, and which moments are shown.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace nt {
 struct TakeOptions {
   std::string take;
   std::vector<std::string> characters;
-  int fish = -1;  // all, or the first where a format holds one
+  std::optional<MlsKind> mls;        // unset: as the character's file says
+  std::optional<Deformer> deformer;  // unset: the lattice where the file has one
+  int fish = -1;                     // all, or the first where a format holds one
   bool recorded = false;
   Moments moments;
 };

@@ -52,13 +52,8 @@ Take open(const std::string& path, Take::Access access) {
   return take;
 }
 
-// The camera's pictures beside a take; empty where they were not kept.
-std::string video_of(const std::string& path, const TakeInfo& info) {
-  return info.video.empty() ? "" : (fs::path(path).parent_path() / fs::path(info.video).filename()).string();
-}
-
 Json video_json(const std::string& path, const TakeInfo& info) {
-  const std::string video = video_of(path, info);
+  const std::string video = video_beside(path, info);
   if (video.empty()) return nullptr;
   return {{"file", video}, {"there", fs::exists(video)}, {"first_frame", info.video_first}};
 }
@@ -101,7 +96,7 @@ void list(const std::vector<std::string>& files, bool json) {
     std::snprintf(line, sizeof line, "  %7.1f s  %6lld frames, %lld with a pose  %d fish  %s", take.seconds,
                   static_cast<long long>(take.frames), static_cast<long long>(take.posed), take.fish,
                   take.info.created.c_str());
-    const std::string video = video_of(file, take.info);
+    const std::string video = video_beside(file, take.info);
     text += file + line + "  " + take.info.name + (take.info.tags.empty() ? "" : "  [" + take.info.tags + "]") +
             (video.empty() ? "" : (fs::exists(video) ? "  with video" : "  its video is missing")) + "\n";
   }
@@ -183,7 +178,7 @@ void move_video(const std::string& video, const fs::path& take) {
 // Into a folder beside it, from where it can be taken back.
 void discard(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
-    const std::string video = video_of(file, open(file, Take::Access::edit).info());  // nobody is writing to it
+    const std::string video = video_beside(file, open(file, Take::Access::edit).info());  // nobody is writing to it
     const fs::path bin = fs::path(file).parent_path() / kBin;
     fs::create_directories(bin);
     fs::path to = bin / fs::path(file).filename();

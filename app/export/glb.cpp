@@ -2,6 +2,7 @@
 #include "app/export/glb.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -70,8 +71,9 @@ class Maker {
     OutputFile file(path);
     const bool complete = file.write_at(0, bytes);
     if (!file.close() || !complete) throw UserError(file.error_line() + "; the file is cut");
-    return {model_.vertices.size(), model_.joints.size(),   model_.times_s.size(), model_.note,
-            errors_.quantile(0.5),  errors_.quantile(0.99), errors_.most()};
+    const bool lattice = Actor(wardrobe_, 0).retarget().lattice() != nullptr;
+    return {model_.vertices.size(),      model_.joints.size(),  model_.times_s.size(),  model_.note,
+            lattice ? "lattice" : "mls", errors_.quantile(0.5), errors_.quantile(0.99), errors_.most()};
   }
 
  private:
@@ -133,6 +135,11 @@ class Maker {
     sample.vertices.reserve(posed.vertices().size());
     for (const Vec2 v : posed.vertices()) sample.vertices.push_back(to_local(pose, zoom, v));
     return sample;
+  }
+
+  // How far a lattice moves a vertex out of its own height, where joints that turn in the plane leave it; character units.
+  float lift(const Retarget& posed, std::size_t v, float zoom) const {
+    return character_.solid() ? posed.solid().heights()[v] / zoom - character_.heights[v] : 0;
   }
 
   // A tail that beats, with the fins at four places between folded and open.
@@ -198,7 +205,9 @@ class Maker {
       add_key(pose);
       for (std::size_t v = 0; v < ours.vertices.size(); ++v) {
         const Vec2 skin = skinned(model_.skin[v], character_.vertices[v], rig_.joints(), pose.joints);
-        errors_.add(100 * static_cast<double>(length(skin - ours.vertices[v]) / body_len_));
+        errors_.add(100 *
+                    static_cast<double>(std::hypot(length(skin - ours.vertices[v]), lift(actor.retarget(), v, zoom)) /
+                                        body_len_));
       }
       progress_.show(static_cast<int64_t>(performance_.frames.size() + i) + 1);
     });

@@ -23,8 +23,9 @@ struct GlbOptions {
 
 struct GlbReport {
   std::size_t vertices = 0, joints = 0, keys = 0;
-  std::string frame;  // units and axes in words
-  // Skinned vertices against our own, over all frames and vertices, % of the body's length.
+  std::string frame;     // units and axes in words
+  std::string deformer;  // our own, against which the skin was measured: mls or lattice
+  // Skinned vertices against our own, over all frames and vertices, in space, % of the body's length.
   double error_median = 0, error_p99 = 0, error_max = 0;
 };
 

@@ -18,6 +18,7 @@ Take open_take(const std::string& path) {
 RecordedMotion motion_of(const std::vector<TakeFrame>& frames) {
   RecordedMotion recorded;
   recorded.motions.reserve(frames.size());
+  if (!frames.empty()) recorded.first_frame = frames.front().frame;
   for (const TakeFrame& frame : frames) {
     recorded.motions.push_back(frame.motion);
     if (recorded.init_len == 0) recorded.init_len = frame.init_len;

@@ -17,7 +17,8 @@ struct EditedTake {
 // A fish's motion as it was recorded.
 struct RecordedMotion {
   std::vector<Motion> motions;
-  float init_len = 0;  // its length in the first frame that has one, pixels; 0: never seen
+  float init_len = 0;       // its length in the first frame that has one, pixels; 0: never seen
+  int64_t first_frame = 0;  // of the take
 };
 RecordedMotion recorded_motion(Take& take, int fish);
 std::vector<Edit> parsed(const std::vector<std::string>& lines);

@@ -305,6 +305,11 @@ void Take::trim(int64_t first, int64_t last) {
   }
 }
 
+std::string video_beside(const std::string& path, const TakeInfo& info) {
+  namespace fs = std::filesystem;
+  return info.video.empty() ? "" : (fs::path(path).parent_path() / fs::path(info.video).filename()).string();
+}
+
 void Take::close() {
   try {
     database_->execute(

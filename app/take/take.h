@@ -91,6 +91,9 @@ class Take {
   bool recovered_ = false;
 };
 
+// The file with the camera's pictures that belongs to the take `path`; empty where they were not kept.
+std::string video_beside(const std::string& path, const TakeInfo& info);
+
 // Copies every frame that can still be read of a damaged take to `to`; the number of frames saved.
 int64_t repair_take(const std::string& from, const std::string& to);
 

@@ -39,13 +39,13 @@ ClipEditor::ClipEditor(std::vector<Motion> recorded, std::vector<Edit> edits, do
   apply_list();
 }
 
-const Motion& ClipEditor::recorded_at(int64_t frame) const {
+int64_t ClipEditor::recorded_frame(int64_t frame) const {
   auto at = static_cast<double>(frame);
   for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit) {
     if (edit->kind == Kind::retime) at *= edit->value;
     else if (edit->renumbers()) at += static_cast<double>(edit->first);
   }
-  return recorded_[std::min(static_cast<std::size_t>(std::llround(at)), recorded_.size() - 1)];
+  return std::min<int64_t>(std::llround(at), static_cast<int64_t>(recorded_.size()) - 1);
 }
 
 void ClipEditor::go_to(int64_t frame) {

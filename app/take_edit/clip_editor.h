@@ -30,7 +30,8 @@ class ClipEditor {
 
   const std::vector<Motion>& motions() const { return clip_.motions; }
   const std::vector<Motion>& recorded() const { return recorded_; }
-  const Motion& recorded_at(int64_t frame) const;  // what a frame of the clip was made of
+  int64_t recorded_frame(int64_t frame) const;  // what a frame of the clip was made of
+  const Motion& recorded_at(int64_t frame) const { return recorded_[static_cast<std::size_t>(recorded_frame(frame))]; }
   const Motion& rest() const { return rest_; }
   const std::vector<Edit>& edits() const { return edits_; }  // without what is held
   const Seam& seam() const { return clip_.seam; }

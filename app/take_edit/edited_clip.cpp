@@ -20,7 +20,9 @@ EditedClip load_clip(Take& take, const std::string& path, int fish) {
           info.fps,
           recorded.init_len,
           {static_cast<float>(info.width), static_cast<float>(info.height)},
-          take.fish().size() > 1 ? chosen : -1};
+          take.fish().size() > 1 ? chosen : -1,
+          video_beside(path, info),
+          info.video_first - recorded.first_frame};
 }
 
 }  // namespace nt

@@ -14,9 +14,11 @@ struct EditedClip {
   std::vector<Motion> recorded;
   std::vector<Edit> edits;  // of all fish of the take
   double fps = 30;
-  float init_len_px = 0;  // the fish's length in its first frame
-  Vec2 frame_px;          // the working frame
-  int fish = -1;          // whom new edits are for; -1: there is only one
+  float init_len_px = 0;    // the fish's length in its first frame
+  Vec2 frame_px;            // the working frame
+  int fish = -1;            // whom new edits are for; -1: there is only one
+  std::string video = {};   // the camera's pictures that were kept; empty: none
+  int64_t video_first = 0;  // the recorded frame that its first picture shows
 };
 
 // `fish` -1: the first one; `path` is for messages. Throws UserError: no such fish, no pose at all, edits that cannot be read.

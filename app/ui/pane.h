@@ -43,7 +43,7 @@ enum PictureId : uint32_t {
   kBackdropPicture = 2,
   kStripPicture = 3,  // the take editor's confidences, of the whole clip and of what the plot shows
   kBandPicture = 4,
-  kPlainPicture = 5,  // one white pixel, for areas of one colour
+  kKeptPicture = 5,  // of the video kept beside a take
   kFirstTextPicture = 16,
   kFirstNumberPicture = 32,
   kFirstCharacterPicture = 64  // one a character

@@ -29,6 +29,7 @@ class TakeCanvas {
   void lay_out(const Area& area, const ClipEditor& editor, const CanvasLook& look);
   void draw(Scene& scene, const ClipEditor& editor, const CanvasLook& look);
 
+  const FigureView& view() const { return view_; }  // frame pixels -> scene pixels
   std::optional<Handle> hit(const ClipEditor& editor, Vec2 at, float reach);
   std::vector<Handle> handles(const ClipEditor& editor);  // of the current frame
   std::vector<ClipEditor::Setting> pulled(const ClipEditor& editor, MotionProperty property, Vec2 to);

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/ui/plain_area.h"
 #include "app/ui/theme.h"
 #include "platform/camera.h"
 
@@ -16,6 +15,7 @@ namespace {
 constexpr int kSideRows = 9, kCurveColumns = 3;
 constexpr float kRowUnits = 1.13f, kEdgeUnits = 0.13f;  // with the gaps
 constexpr float kSideUnits = 6.4f;
+constexpr float kVideoShare = 0.5f;                     // of what the character has
 constexpr float kPlotShare = 0.25f;                     // of the window's height
 constexpr float kDotShare = 0.3f, kLineShare = 0.035f;  // of a button's height
 constexpr float kSaveAfter_s = 0.5f;
@@ -38,7 +38,11 @@ TakeEditor::TakeEditor(Display& display, EditedClip clip, const Wardrobe& wardro
       curves_(named_curves(editor_.rest())),
       canvas_(wardrobe, clip.init_len_px, clip.frame_px),
       timeline_(curves_),
-      save_(std::move(save)) {
+      save_(std::move(save)),
+      frame_px_(clip.frame_px),
+      init_len_px_(clip.init_len_px),
+      video_path_(std::move(clip.video)),
+      video_first_(clip.video_first) {
   const auto& m = editor_.motions();
   const auto seen = std::find_if(m.begin(), m.end(), [](const Motion& one) { return one.status == PoseStatus::ok; });
   if (seen != m.end()) editor_.go_to(seen - m.begin());
@@ -52,7 +56,9 @@ void TakeEditor::lay_out() {
   side_ = {{left, 0}, {side, size.y}};
   bar_ = {{0, 0}, {left, bar}};
   transport_ = {{0, size.y - bar}, {left, bar}};
-  canvas_area_ = {{0, bar}, {left, size.y - 2 * bar - plot}};
+  const float beside = video_ != nullptr ? std::floor(kVideoShare * left) : 0, height = size.y - 2 * bar - plot;
+  canvas_area_ = {{0, bar}, {left - beside, height}};
+  video_area_ = {{left - beside, bar}, {beside, height}};
   const Area keys = row(transport_, 0);
   const float buttons = 2 * (unit() + gap());
   plot_area_ = {{0, size.y - bar - plot}, {left, plot}};
@@ -86,6 +92,12 @@ void TakeEditor::play(bool on) {
   played_ = static_cast<double>(editor_.frame());
 }
 
+void TakeEditor::toggle_video() {
+  if (video_path_.empty()) return;
+  if (video_ == nullptr) video_ = std::make_unique<VideoPane>(video_path_, video_first_);
+  else video_.reset();
+}
+
 void TakeEditor::press_key(const InputEvent& event) {
   if (event.ctrl) {
     if (event.key == 'z') event.shift ? editor_.redo() : editor_.undo();
@@ -100,6 +112,7 @@ void TakeEditor::press_key(const InputEvent& event) {
   if (event.key == 'b') look_.before = !look_.before;
   if (event.key == 'g') look_.ghosts = !look_.ghosts;
   if (event.key == 't') look_.far = !look_.far;
+  if (event.key == 'v') toggle_video();
   if (event.key == '+' || event.key == '=') timeline_.zoom(true, editor_);
   if (event.key == '-') timeline_.zoom(false, editor_);
   if (event.key == '[') editor_.begin_range();
@@ -160,14 +173,16 @@ void TakeEditor::show() {
   show_bar();
   show_side();
   show_transport();
+  show_video();
   show_words();
 }
 
 void TakeEditor::show_bar() {
   using Look = Panel::Look;
+  const int buttons = video_path_.empty() ? 7 : 8;
   int index = 0;
   const auto button = [&](const char* words, Look look) {
-    return panel().button(part(row(bar_, 0), index++, 7), words, look);
+    return panel().button(part(row(bar_, 0), index++, buttons), words, look);
   };
   const auto toggle = [&](const char* words, bool& on) {
     if (button(words, on ? Look::on : Look::plain)) on = !on;
@@ -178,11 +193,11 @@ void TakeEditor::show_bar() {
   toggle("Before", look_.before);
   toggle("Ghosts", look_.ghosts);
   toggle("Tank", look_.far);
+  if (!video_path_.empty() && button("Video", video_ != nullptr ? Look::on : Look::plain)) toggle_video();
   if (button("Close", Look::plain)) leave();
 }
 
 void TakeEditor::show_side() {
-  panel().fill(side_, kSide);
   int index = 0;
   show_curves(index);
   show_stretch(index);
@@ -239,7 +254,7 @@ void TakeEditor::show_stretch(int& index) {
   if (button("Calmer", angle)) try_to([&] { editor_.exaggerate(kCalmer); });
   if (button("Repair")) try_to([&] { editor_.repair(); });
   if (button("Trim", whole ? Look::off : Look::plain)) try_to([&] { editor_.trim(); });
-  if (button("Loop")) try_to([&] { editor_.loop(); });
+  if (button("Loop")) try_to([&] { loop(); });
   if (button("Slower")) try_to([&] { editor_.retime(kSlower); });
   if (button("Faster")) try_to([&] { editor_.retime(kFaster); });
   index += (place + 2) / 3;
@@ -254,6 +269,30 @@ void TakeEditor::show_transport() {
   if (panel().button(place(keys.corner.x + unit() + gap()), ">##frame")) step(1);
   if (panel().button(place(right), "-##time")) timeline_.zoom(false, editor_);
   if (panel().button(place(right + unit() + gap()), "+##time")) timeline_.zoom(true, editor_);
+}
+
+void TakeEditor::loop() {
+  editor_.loop();
+  const Seam& seam = editor_.seam();
+  char text[96];
+  std::snprintf(text, sizeof text, "The loop's seam: %.1f degrees and %.1f pixels bridged.",
+                static_cast<double>(seam.angle_rad) * 57.2957795, static_cast<double>(seam.drift_px));
+  say(text);
+}
+
+// Why there is no picture, where there is none.
+void TakeEditor::show_video() {
+  if (video_ == nullptr) return;
+  const std::string problem = video_->video().problem();
+  if (problem.empty()) return;
+  // What, and what to do, a line each.
+  const std::size_t colon = std::min(problem.find(": "), problem.size());
+  const float height = 0.7f * unit();
+  Vec2 corner{video_area_.corner.x + gap(), video_area_.centre().y - height};
+  for (const std::string& line : {problem.substr(0, colon), problem.substr(std::min(colon + 2, problem.size()))}) {
+    panel().text({corner, {video_area_.size.x - 2 * gap(), height}}, line, kOnAccent, Panel::Align::middle);
+    corner.y += height;
+  }
 }
 
 std::string TakeEditor::words() const {
@@ -305,6 +344,17 @@ void TakeEditor::save_by_itself(float dt_s) {
   if (!waited && since_change_s_ >= kSaveAfter_s && unsaved() && !editor_.holding()) save();
 }
 
+// Near as the character is, at the same size; far the whole picture.
+void TakeEditor::add_video() {
+  if (video_ == nullptr) return;
+  FigureView view = canvas_.view();
+  view.to = video_area_.centre();
+  if (look_.far) view = fit_figure({{0, 0}, frame_px_}, video_area_, gap(), false);
+  video_->draw(scene(), video_area_, view, editor_.recorded_frame(editor_.frame()),
+               editor_.motions()[static_cast<std::size_t>(editor_.frame())], init_len_px_,
+               std::max(1.0f, kLineShare * unit()));
+}
+
 void TakeEditor::compose(float dt_s) {
   advance(dt_s);
   save_by_itself(dt_s);
@@ -314,7 +364,9 @@ void TakeEditor::compose(float dt_s) {
   canvas_.lay_out(canvas_area_, editor_, look_);
   scene().clear(static_cast<int>(window().x), static_cast<int>(window().y), kPaper);
   canvas_.draw(scene(), editor_, look_);
-  for (const Area& area : {bar_, transport_}) add_area(scene(), area, kSide);  // over what swims out of the canvas
+  add_video();
+  for (const Area& area : {bar_, transport_, side_})
+    scene().area(area.corner, area.size, kSide);  // over what swims out
   timeline_.draw(scene(), editor_, std::max(1.0f, kLineShare * unit()));
 }
 

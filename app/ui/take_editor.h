@@ -4,10 +4,11 @@
 //
 // A recorded motion + edits -> edits, through `save`, by itself half a second after the last change. Drag a handle of the
 // character or the thick curve: the neighbours inside the hill follow at once. Keys: space plays, left and right (with Shift ten)
-// frames, b before, g ghosts, t tank, + and - zoom, [ and ] range, Ctrl+Z and Ctrl+Y, Ctrl+S, q.
+// frames, b before, g ghosts, t tank, v video, + and - zoom, [ and ] range, Ctrl+Z and Ctrl+Y, Ctrl+S, q.
 // Cost: a picture is drawn 60 times a second; a drag costs the frames of its window and some twelve poses.
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@
 #include "app/ui/editor_window.h"
 #include "app/ui/take_canvas.h"
 #include "app/ui/take_timeline.h"
+#include "app/ui/video_pane.h"
 
 namespace nt {
 
@@ -32,6 +34,9 @@ class TakeEditor : public EditorWindow {
   Vec2 on_screen(MotionProperty property);  // its handle, scene pixels
   Vec2 on_plot(int64_t frame) const;        // the thick curve, scene pixels
   const Area& canvas() const { return canvas_area_; }
+  // The video that was kept, while it is shown beside the character.
+  KeptVideo* video() { return video_ != nullptr ? &video_->video() : nullptr; }
+  const Area& strip() const { return strip_area_; }
 
  private:
   enum class Grip : uint8_t { none, handle, curve, plot, strip };
@@ -56,10 +61,14 @@ class TakeEditor : public EditorWindow {
   void show_legend(const Area& area);
   void show_stretch(int& index);
   void show_transport();
+  void loop();
+  void show_video();
   void show_words();
   std::string words() const;
   void step(int64_t frames);
   void play(bool on);
+  void toggle_video();
+  void add_video();
   void advance(float dt_s);
   void save_by_itself(float dt_s);
   template <class Change>
@@ -72,7 +81,12 @@ class TakeEditor : public EditorWindow {
   TakeTimeline timeline_;
   CanvasLook look_;
   Save save_;
-  Area canvas_area_, bar_, side_, transport_, plot_area_, strip_area_;
+  Vec2 frame_px_;  // the working frame
+  float init_len_px_;
+  std::string video_path_;
+  int64_t video_first_;
+  std::unique_ptr<VideoPane> video_;
+  Area video_area_, canvas_area_, bar_, side_, transport_, plot_area_, strip_area_;
   Grip grip_ = Grip::none;
   Vec2 grip_offset_;  // from the pointer to what is held
   bool playing_ = false;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/ui/plain_area.h"
 #include "app/ui/theme.h"
 
 namespace nt {
@@ -170,9 +169,7 @@ void TakeTimeline::add_window(Scene& scene, const ClipEditor& editor) {
   if (ridge.size() < 2) return;
   hill_.clear();
   for (uint32_t i = 0; i + 2 < strip.size(); i += 2) hill_.insert(hill_.end(), {i, i + 1, i + 2, i + 1, i + 3, i + 2});
-  const std::size_t corners = strip.size();
-  const auto positions = keep(std::move(strip));
-  scene.mesh(kPlain, positions, keep(std::vector<Vec2>(corners, Vec2{0.5f, 0.5f})), hill_, kHill);
+  scene.plain(keep(std::move(strip)), hill_, kHill);
   scene.lines(keep(std::move(ridge)), kEdge, 1.5f);
 }
 
@@ -216,8 +213,8 @@ void TakeTimeline::add_strip(Scene& scene, const ClipEditor& editor, float line_
   };
   const float top = strip_.corner.y, height = strip_.size.y, left = strip_.corner.x, right = left + strip_.size.x;
   const FrameRange range = editor.range();
-  add_area(scene, {{left, top}, {x(range.first) - left, height}}, kOutside);
-  add_area(scene, {{x(range.last + 1), top}, {right - x(range.last + 1), height}}, kOutside);
+  scene.area({left, top}, {x(range.first) - left, height}, kOutside);
+  scene.area({x(range.last + 1), top}, {right - x(range.last + 1), height}, kOutside);
   const float begin = x(first_), end = x(first_ + shown_);
   scene.lines(keep({{begin, top}, {end, top}, {end, top + height}, {begin, top + height}}), kCursor, line_px, true);
   const float at = x(editor.frame()) + 0.5f * strip_.size.x / static_cast<float>(editor.frames());
@@ -227,7 +224,7 @@ void TakeTimeline::add_strip(Scene& scene, const ClipEditor& editor, float line_
 
 void TakeTimeline::draw(Scene& scene, const ClipEditor& editor, float line_px) {
   points_.clear();
-  add_area(scene, plot_, kGround);
+  scene.area(plot_.corner, plot_.size, kGround);
   const MotionProperty selected = editor.selected();
   add_window(scene, editor);
   const float height = plot_.size.y * (1 - kBandShare), right = plot_.corner.x + plot_.size.x;

@@ -50,18 +50,18 @@ struct LatticeSkin {
   Vec2 origin, up;    // scene pixels: where the rest frame's origin lies, and its y, as long as one unit
 };
 
-enum class ItemKind : uint8_t { image, mesh, lines, points };
+enum class ItemKind : uint8_t { area, image, mesh, lines, points };
 
 struct SceneItem {
   ItemKind kind = ItemKind::image;
-  Picture picture;                    // image, mesh
-  Vec2 at, size;                      // image: top left corner and extent
+  Picture picture;                    // image, mesh; a mesh without pixels and texcoords is of one colour
+  Vec2 at, size;                      // area, image: top left corner and extent
   std::span<const Vec2> positions;    // mesh: vertices; lines: a strip; points: centres
   std::span<const Vec2> texcoords;    // mesh: in [0, 1], v down, one per vertex
   std::span<const uint32_t> indices;  // mesh: three per triangle
   std::span<const float> heights;     // mesh: one per vertex, or none for a flat one
   std::span<const Vec3> normals;      // mesh with heights: one per vertex, z towards the viewer, of any length
-  Colour colour;                      // lines, points; multiplies images and meshes
+  Colour colour;                      // area, lines, points; multiplies images and meshes
   float width_px = 1;                 // lines: thickness; points: diameter
   bool closed = false;                // lines: join the last to the first
   const LatticeSkin* skin = nullptr;  // mesh: in place of positions to normals
@@ -78,6 +78,11 @@ class Scene {
     if (count_ < kMaxItems) items_[static_cast<std::size_t>(count_++)] = item;
     else ++dropped_;
   }
+  void area(Vec2 at, Vec2 size, Colour colour) {
+    SceneItem item;
+    item.kind = ItemKind::area, item.at = at, item.size = size, item.colour = colour;
+    add(item);
+  }
   void image(const Picture& picture, Vec2 at, Vec2 size, Colour tint = {}) {
     SceneItem item;
     item.kind = ItemKind::image, item.picture = picture, item.at = at, item.size = size, item.colour = tint;
@@ -89,6 +94,9 @@ class Scene {
     item.kind = ItemKind::mesh, item.picture = texture, item.positions = positions, item.texcoords = texcoords;
     item.indices = indices, item.colour = tint;
     add(item);
+  }
+  void plain(std::span<const Vec2> positions, std::span<const uint32_t> indices, Colour colour) {
+    mesh({}, positions, {}, indices, colour);
   }
   void solid(const Picture& texture, std::span<const Vec2> positions, std::span<const float> heights,
              std::span<const Vec3> normals, std::span<const Vec2> texcoords, std::span<const uint32_t> indices,

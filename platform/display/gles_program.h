@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shaders -> a program, and the fragment shader that all items of a scene share (its shapes: gles_renderer.h).
+// A vertex shader and the shape that its triangles show -> a program.
 //
 // `feedback`: a vertex shader's output to be read back, or null. Throws UserError with one line when the driver cannot.
 #pragma once
+#include <cstdint>
 
 namespace nt {
 
-extern const char* const kSceneFragmentShader;
-inline constexpr int kSolidShape = 3;  // lit by its normals, half transparent texels left out
+// textured: a picture. plain: one colour. band, disc: soft at the edge. solid: lit by its normals, half transparent texels left out.
+enum class Shape : uint8_t { textured, band, disc, solid, plain };
+inline constexpr int kShapes = 5;
 
-unsigned link_program(const char* vertex_shader, const char* fragment_shader, const char* feedback = nullptr);
+unsigned link_program(const char* vertex_shader, Shape shape, const char* feedback = nullptr);
 
 }  // namespace nt

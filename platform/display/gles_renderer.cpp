@@ -62,10 +62,11 @@ float soft_margin(float scale) { return 1.0f / scale; }
 
 }  // namespace
 
-GlesRenderer::GlesRenderer() : program_(link_program(kVertexShader, kSceneFragmentShader)) {
-  canvas_uniform_ = glGetUniformLocation(program_, "canvas");
-  shape_uniform_ = glGetUniformLocation(program_, "shape");
-  scale_uniform_ = glGetUniformLocation(program_, "scale");
+GlesRenderer::GlesRenderer() {
+  for (std::size_t i = 0; i < programs_.size(); ++i) {
+    const unsigned handle = link_program(kVertexShader, static_cast<Shape>(i));
+    programs_[i] = {handle, glGetUniformLocation(handle, "canvas"), glGetUniformLocation(handle, "scale")};
+  }
   glGenVertexArrays(1, &vertex_array_);
   glBindVertexArray(vertex_array_);
   glGenBuffers(1, &vertex_buffer_);
@@ -88,7 +89,7 @@ GlesRenderer::~GlesRenderer() {
   glDeleteBuffers(1, &vertex_buffer_);
   glDeleteBuffers(1, &index_buffer_);
   glDeleteVertexArrays(1, &vertex_array_);
-  glDeleteProgram(program_);
+  for (const Program& program : programs_) glDeleteProgram(program.handle);
 }
 
 std::string GlesRenderer::description() {
@@ -103,8 +104,10 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
   const CanvasFit fit = fit_canvas(scene.width(), scene.height(), display_width, display_height);
   glDisable(GL_SCISSOR_TEST);
   glViewport(0, 0, display_width, display_height);
-  glClearColor(0, 0, 0, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
+  if (fit.width < display_width || fit.height < display_height) {  // bars beside the canvas
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
   if (fit.width == 0) return;
   const bool top_down = rows == RowOrder::top_down;
   const int y = top_down ? fit.y : display_height - fit.y - fit.height;
@@ -117,12 +120,9 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
 
   build(scene, fit.scale);
   upload_buffers();
-  glUseProgram(program_);
   const float flip = top_down ? 1.0f : -1.0f;
   const float canvas[4] = {2.0f / static_cast<float>(scene.width()), flip * 2.0f / static_cast<float>(scene.height()),
                            -1.0f, -flip};
-  glUniform4fv(canvas_uniform_, 1, canvas);
-  glUniform1f(scale_uniform_, fit.scale);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDisable(GL_DEPTH_TEST);
@@ -139,18 +139,24 @@ void GlesRenderer::draw(const Scene& scene, int display_width, int display_heigh
     } else {
       glDisable(GL_DEPTH_TEST);
     }
-    glUniform1i(shape_uniform_, static_cast<int>(batch.shape));
+    use(batch.shape, canvas, fit.scale);
     glDrawElements(GL_TRIANGLES, static_cast<int>(batch.count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(batch.first * sizeof(uint32_t)));
   }
 }
 
-// Its own program and buffers, then back to those of all others.
+void GlesRenderer::use(Shape shape, const float* canvas, float scale) {
+  const Program& program = programs_[static_cast<std::size_t>(shape)];
+  glUseProgram(program.handle);
+  glUniform4fv(program.canvas, 1, canvas);
+  glUniform1f(program.scale, scale);
+}
+
+// Its own program and buffers, then back to the buffers of all others.
 void GlesRenderer::draw_skin(const SceneItem& item, const float* canvas) {
   glEnable(GL_DEPTH_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
   skins_.draw(*item.skin, item.colour, canvas);
-  glUseProgram(program_);
   glBindVertexArray(vertex_array_);
 }
 
@@ -160,8 +166,14 @@ void GlesRenderer::build(const Scene& scene, float scale) {
   batches_.clear();
   for (const SceneItem& item : scene.items()) {
     switch (item.kind) {
+      case ItemKind::area:
+        open_batch(Shape::plain, nullptr);
+        add_rectangle(item);
+        break;
       case ItemKind::image:
-        add_image(item);
+        if (!drawable(item.picture)) break;
+        open_batch(Shape::textured, &item.picture);
+        add_rectangle(item);
         break;
       case ItemKind::mesh:
         add_mesh(item);
@@ -187,9 +199,7 @@ void GlesRenderer::add_quad(uint32_t first_vertex) {
   for (const uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first_vertex + corner);
 }
 
-void GlesRenderer::add_image(const SceneItem& item) {
-  if (!drawable(item.picture)) return;
-  open_batch(Shape::textured, &item.picture);
+void GlesRenderer::add_rectangle(const SceneItem& item) {
   const auto first = static_cast<uint32_t>(vertices_.size());
   Vertex vertex{};
   pack(item.colour, vertex.rgba);
@@ -208,15 +218,17 @@ void GlesRenderer::add_mesh(const SceneItem& item) {
     return;
   }
   const std::size_t count = item.positions.size();
-  if (!drawable(item.picture) || count == 0 || item.texcoords.size() != count) return;
+  const bool plain = item.picture.pixels == nullptr && item.texcoords.empty();
+  if (count == 0 || (!plain && (!drawable(item.picture) || item.texcoords.size() != count))) return;
   const bool solid = item.heights.size() == count && item.normals.size() == count;
-  open_batch(solid ? Shape::solid : Shape::textured, &item.picture);
+  if (plain) open_batch(Shape::plain, nullptr);
+  else open_batch(solid ? Shape::solid : Shape::textured, &item.picture);
   const auto first = static_cast<uint32_t>(vertices_.size());
   Vertex vertex{};
   pack(item.colour, vertex.rgba);
   for (std::size_t i = 0; i < count; ++i) {
     vertex.at = item.positions[i];
-    vertex.uv = item.texcoords[i];
+    if (!plain) vertex.uv = item.texcoords[i];
     vertices_.push_back(vertex);
   }
   if (solid) raise(item, first);

@@ -10,6 +10,7 @@
 // Cost: one vertex and one index upload a frame, one draw call for each run of items with the same texture; the
 // buffers grow to the largest scene seen and stay, so a steady scene allocates nothing.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,6 +18,7 @@
 
 #include "core/scene/scene.h"
 #include "platform/display/canvas_fit.h"
+#include "platform/display/gles_program.h"
 #include "platform/display/lattice_mesh.h"
 
 namespace nt {
@@ -35,7 +37,6 @@ class GlesRenderer {
   static std::string description();  // GL_RENDERER and GL_VERSION of the current context
 
  private:
-  enum class Shape : uint8_t { textured, band, disc, solid };
   // Textured: u, v in [0, 1]. Band and disc: distance from the middle in scene pixels, and where the edge is.
   struct Vertex {
     Vec2 at;
@@ -60,8 +61,9 @@ class GlesRenderer {
   };
 
   void build(const Scene& scene, float scale);
-  void add_image(const SceneItem& item);
+  void add_rectangle(const SceneItem& item);
   void add_mesh(const SceneItem& item);
+  void use(Shape shape, const float* canvas, float scale);
   void draw_skin(const SceneItem& item, const float* canvas);
   void raise(const SceneItem& item, std::size_t first_vertex);
   void add_lines(const SceneItem& item, float scale);
@@ -74,8 +76,12 @@ class GlesRenderer {
   void upload(const Picture& picture, bool fresh);
   Texture& slot(uint32_t id);
 
-  unsigned program_ = 0, vertex_array_ = 0, vertex_buffer_ = 0, index_buffer_ = 0;
-  int canvas_uniform_ = -1, shape_uniform_ = -1, scale_uniform_ = -1;
+  struct Program {
+    unsigned handle = 0;
+    int canvas = -1, scale = -1;  // uniforms
+  };
+  std::array<Program, kShapes> programs_;
+  unsigned vertex_array_ = 0, vertex_buffer_ = 0, index_buffer_ = 0;
   std::size_t vertex_bytes_ = 0, index_bytes_ = 0;  // capacity on the GPU
   std::vector<Vertex> vertices_;
   std::vector<uint32_t> indices_;

@@ -91,13 +91,11 @@ LatticeMeshes::~LatticeMeshes() {
 
 void LatticeMeshes::start() {
   if (program_ != 0) return;
-  program_ = link_program(kVertexShader, kSceneFragmentShader, "v_place");
+  program_ = link_program(kVertexShader, Shape::solid, "v_place");
   glUseProgram(program_);
   glUniform1i(glGetUniformLocation(program_, "picture"), 0);
   glUniform1i(glGetUniformLocation(program_, "lattice"), 1);
   glUniform1i(glGetUniformLocation(program_, "rest"), 2);
-  glUniform1i(glGetUniformLocation(program_, "shape"), kSolidShape);
-  glUniform1f(glGetUniformLocation(program_, "scale"), 1.0f);
   canvas_ = glGetUniformLocation(program_, "canvas"), frame_ = glGetUniformLocation(program_, "frame");
   depth_ = glGetUniformLocation(program_, "depth"), tint_ = glGetUniformLocation(program_, "tint");
   phong_ = glGetUniformLocation(program_, "phong");

@@ -69,10 +69,20 @@ class VideoSource : public FrameSource {
     open();
     index_ = -1;
   }
+  bool seek(int64_t index) override {
+    if (go_to(index)) return true;
+    open();  // once it has seen the end, OpenCV's decoder goes nowhere else
+    return go_to(index);
+  }
   double fps() const override { return fps_; }
   int64_t frame_count() const override { return count_; }
 
  private:
+  bool go_to(int64_t index) {
+    if (index < 0 || !capture_.set(cv::CAP_PROP_POS_FRAMES, static_cast<double>(index))) return false;
+    index_ = std::llround(capture_.get(cv::CAP_PROP_POS_FRAMES)) - 1;  // past the end it stays there
+    return index_ + 1 == index;
+  }
   void open() {
     if (!capture_.open(absolute_, cv::CAP_FFMPEG)) {
       throw UserError(
@@ -102,6 +112,11 @@ class PictureSource : public FrameSource {
     return false;
   }
   void rewind() override { index_ = -1; }
+  bool seek(int64_t index) override {
+    if (index < 0 || index >= frame_count()) return false;
+    index_ = index - 1;
+    return true;
+  }
   double fps() const override { return kDefaultFps; }
   int64_t frame_count() const override { return static_cast<int64_t>(files_.size()); }
 

@@ -2,8 +2,12 @@
 // The take editor's window on SDL's driver without a screen, with SDL's own mouse and finger events.
 #include "app/ui/take_editor.h"
 
+#include <filesystem>
+
+#include "app/export/video_writer.h"
 #include "tests/app/swimming_motion.h"
 #include "tests/app/window_driver.h"
+#include "tests/support/temp_dir.h"
 
 namespace nt {
 namespace {
@@ -188,6 +192,55 @@ TEST_P(TakeEditorTest, AFullDiskIsToldAndKeepsTheWindowOpen) {
   EXPECT_EQ(saves_, 1);
   EXPECT_FALSE(editor_->asking());
   EXPECT_FALSE(frames(1));
+}
+
+TEST_P(TakeEditorTest, TheKeptVideoShowsTheFrameBesideTheCharacter) {
+  if (!editor_) return;
+  const TempDir dir;
+  const std::string path = dir / "a.take.mkv";
+  {
+    VideoWriter writer(path, 960, 544, 30);  // the frame's number as a shade
+    for (int n = 0; n < kFrames; ++n) writer.add(std::vector<uint8_t>(960 * 544 * 3, static_cast<uint8_t>(40 + n)));
+    writer.finish();
+  }
+  EditedClip clip{motions(), {}, 30, 180, {960, 544}};
+  clip.video = path, clip.video_first = 10;
+  editor_.reset();
+  editor_ = std::make_unique<TakeEditor>(*display_, std::move(clip), carp(), [](const std::vector<Edit>&) {});
+  frames(3);
+  EXPECT_EQ(editor_->video(), nullptr);
+  const float whole = editor_->canvas().size.x;
+  tap({whole * 6.5f / 8, 0.5f * editor_->canvas().corner.y});
+  ASSERT_NE(editor_->video(), nullptr);
+  const Area canvas = editor_->canvas();
+  EXPECT_LT(canvas.size.x, 0.6f * whole);
+  EXPECT_GT(editor_->on_plot(60).y, canvas.corner.y + canvas.size.y);  // nothing lies over the curves
+  const auto settle = [&](int64_t frame) {
+    for (int i = 0; i < 1000 && editor_->video()->shown() != frame && editor_->video()->problem().empty(); ++i)
+      frames(1), SDL_Delay(2);
+    frames(2);
+  };
+  const auto shade = [&] {
+    const int x = static_cast<int>(canvas.size.x + 0.2f * canvas.size.x);
+    const int y = size_.height - 1 - static_cast<int>(canvas.corner.y + 0.5f * canvas.size.y);
+    return static_cast<int>(picture()[static_cast<std::size_t>((y * size_.width + x) * 4)]);
+  };
+  for (const int frame : {80, 81, 30, 140}) {
+    go_to(frame);
+    settle(frame);
+    EXPECT_EQ(editor_->video()->problem(), "");
+    EXPECT_NEAR(shade(), 40 + frame - 10, 2);
+  }
+  go_to(5);
+  settle(5);
+  EXPECT_EQ(editor_->video()->problem(), "a.take.mkv begins later");
+  std::filesystem::remove(path);
+  go_to(60);
+  settle(60);
+  EXPECT_EQ(editor_->video()->problem(), "a.take.mkv is not there: put it beside the take again");
+  key(SDLK_v);
+  EXPECT_EQ(editor_->video(), nullptr);
+  EXPECT_EQ(editor_->canvas().size.x, whole);
 }
 
 class TakeEditorRows : public TakeEditorTest {};

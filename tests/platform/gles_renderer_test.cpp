@@ -100,6 +100,23 @@ TEST_F(GlesRendererTest, UploadsAgainOnlyWhenTheRevisionChanges) {
   EXPECT_TRUE(near_colour(at(7, 4), {250, 0, 0}));
 }
 
+TEST_F(GlesRendererTest, AreasAndPlainMeshesAreOfOneColour) {
+  open(16, 16);
+  if (!display_) return;
+  const std::array<Vec2, 3> corners = {Vec2{8, 8}, {16, 8}, {8, 16}};
+  const std::array<uint32_t, 3> triangle = {0, 1, 2};
+  Scene scene = blank();
+  scene.area({2, 2}, {4, 4}, {1, 0, 0, 1});
+  scene.area({4, 2}, {4, 4}, {0, 1, 0, 0.5f});
+  scene.plain(corners, triangle, {0, 0, 1, 1});
+  draw(scene);
+  EXPECT_TRUE(near_colour(at(2, 2), {255, 0, 0}));
+  EXPECT_TRUE(near_colour(at(5, 5), {128, 128, 0}));
+  EXPECT_TRUE(near_colour(at(7, 3), {0, 128, 0}));
+  EXPECT_TRUE(near_colour(at(9, 9), {0, 0, 255}));
+  for (const auto& [x, y] : {std::pair{1, 2}, {6, 6}, {8, 3}, {14, 14}}) EXPECT_TRUE(near_colour(at(x, y), {0, 0, 0}));
+}
+
 TEST_F(GlesRendererTest, BlendsAlphaAndTint) {
   open(8, 8);
   if (!display_) return;

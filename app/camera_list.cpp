@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "platform/linux/libcamera_camera.h"
 #include "platform/linux/v4l2_list.h"
 
 namespace nt {
@@ -27,6 +28,15 @@ std::string entry_text(std::size_t number, const ListedCamera& camera) {
   return text + (controls.empty() ? "" : controls + "\n");
 }
 
+// None where libcamera is not installed: V4L2 cameras do without.
+std::vector<LibcameraEntry> of_libcamera() {
+  try {
+    return list_libcamera_cameras();
+  } catch (const UserError&) {
+    return {};
+  }
+}
+
 Json modes_json(const ListedCamera& camera) {
   Json modes = Json::array();
   for (const VideoMode& mode : camera.modes) {
@@ -42,9 +52,12 @@ Json modes_json(const ListedCamera& camera) {
 
 std::string camera_list_text() {
   const std::vector<ListedCamera> cameras = list_v4l2_cameras();
-  if (cameras.empty()) return "No cameras available!\n";
+  const std::vector<LibcameraEntry> others = of_libcamera();
+  if (cameras.empty() && others.empty()) return "No cameras available!\n";
   std::string text = "Available cameras\n-----------------\n";
   for (std::size_t i = 0; i < cameras.size(); ++i) text += entry_text(i, cameras[i]);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    text += std::to_string(cameras.size() + i) + " : " + others[i].model + " [libcamera:" + others[i].id + "]\n";
   return text;
 }
 
@@ -66,6 +79,8 @@ Json camera_list_json() {
                     {"modes", modes_json(camera)},
                     {"controls", controls}});
   }
+  for (const LibcameraEntry& camera : of_libcamera())
+    list.push_back({{"camera", "libcamera:" + camera.id}, {"name", camera.model}});
   return list;
 }
 

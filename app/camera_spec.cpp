@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kLargestSide = 8192;
 
-const std::vector<std::string> kKinds = {"sim", "file", "v4l2"};
+const std::vector<std::string> kKinds = {"sim", "file", "v4l2", "libcamera"};
 const std::vector<std::string> kSimKeys = {"scene", "seed", "size", "fps", "frames"};
+const std::vector<std::string> kLibcameraKeys = {"size", "fps", "lock"};
 const std::vector<std::string> kV4l2Keys = {"size", "fps", "format", "lock", "mains", "wait"};
 
 std::string one_of(const std::string& what, const std::string& wrong, const std::vector<std::string>& names) {
@@ -119,6 +120,31 @@ CameraSpec parse_v4l2(const std::string& text) {
   return spec;
 }
 
+// "imx219,size=640x480"; without a name the first camera.
+CameraSpec parse_libcamera(const std::string& text) {
+  CameraSpec spec;
+  spec.kind = CameraSpec::Kind::libcamera;
+  LibcameraSettings& settings = spec.libcamera;
+  const std::size_t comma = std::min(text.find(','), text.size());
+  settings.id = text.substr(0, comma);
+  if (comma == text.size()) return spec;
+  parse_keys("libcamera", text.substr(comma + 1), kLibcameraKeys,
+             [&](const std::string& key, const std::string& value) {
+               const std::string what = "--camera libcamera: " + key;
+               if (key == "size") {
+                 const Size size = parse_size(what, value);
+                 settings.width = size.width, settings.height = size.height;
+               } else if (key == "fps") {
+                 settings.fps = parse_number(what, value, 0.1, 1000);
+               } else if (key == "lock") {
+                 settings.lock = choice(what, value, {"off", "on"}) == 1;
+               } else {
+                 throw UserError(one_of("--camera libcamera: unknown key", key, kLibcameraKeys), 2);
+               }
+             });
+  return spec;
+}
+
 CameraSpec file_spec(const std::string& path) {
   CameraSpec spec;
   spec.kind = CameraSpec::Kind::file;
@@ -134,6 +160,8 @@ CameraSpec parse_camera_spec(const std::string& text) {
   if (text == "v4l2" || text == "v4l2:") return parse_v4l2("");
   if (text.starts_with("v4l2:")) return parse_v4l2(text.substr(5));
   if (text.starts_with("/dev/video") || text.starts_with("/dev/v4l/")) return parse_v4l2(text);
+  if (text == "libcamera") return parse_libcamera("");
+  if (text.starts_with("libcamera:")) return parse_libcamera(text.substr(10));
   if (text == "file:") throw UserError("--camera: the path is missing after 'file:'; give file:PATH", 2);
   if (text.starts_with("file:")) return file_spec(text.substr(5));
   std::error_code ignored;
@@ -142,8 +170,9 @@ CameraSpec parse_camera_spec(const std::string& text) {
   if (kind != text || edit_distance(kind, nearest_name(kind, kKinds)) <= 1) {
     throw UserError(one_of("--camera: unknown camera", kind, kKinds), 2);
   }
-  throw UserError(
-      "--camera: there is no file '" + text + "'; give sim, sim:KEY=VALUE,..., file:PATH or v4l2:/dev/videoN", 3);
+  throw UserError("--camera: there is no file '" + text +
+                      "'; give sim, sim:KEY=VALUE,..., file:PATH, v4l2:/dev/videoN or libcamera:ID",
+                  3);
 }
 
 std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> work, double fps,
@@ -158,6 +187,11 @@ std::unique_ptr<Camera> open_camera(const CameraSpec& spec, std::optional<Size> 
     if (v4l2.wish.fps <= 0) v4l2.wish.fps = fps;
     v4l2.wish.work_pixels = work ? int64_t{1} * work->width * work->height : kDefaultPixels;
     return open_v4l2_camera(v4l2, box.width, box.height, most_pixels, manners);
+  }
+  if (spec.kind == Kind::libcamera) {
+    LibcameraSettings libcamera = spec.libcamera;
+    if (libcamera.fps <= 0) libcamera.fps = fps;
+    return open_libcamera_camera(libcamera, box.width, box.height, most_pixels, manners);
   }
   TankSettings tank = spec.tank;
   if (fps > 0) tank.fps = fps;

@@ -6,6 +6,7 @@
 //   v4l2:/dev/videoN[,size=WxH][,fps=N][,format=nv12|yuyv|grey|mjpeg][,lock=on|off][,mains=50|60|off|auto][,wait=S]
 //                                                             a USB camera; lock: settle, then lock exposure and white
 //                                                             balance; wait: seconds for one that was unplugged
+//   libcamera[:ID][,size=WxH][,fps=N][,lock=on|off]           a camera of libcamera's, whose name has ID in it; without ID the first
 // Anything else throws UserError that names what exists and the nearest valid name: exit code 2, or 3 for a file that
 // is not there.
 #pragma once
@@ -16,17 +17,19 @@
 
 #include "app/numbers.h"
 #include "platform/camera.h"
+#include "platform/linux/libcamera_camera.h"
 #include "platform/linux/v4l2_camera.h"
 #include "platform/sim/tank.h"
 
 namespace nt {
 
 struct CameraSpec {
-  enum class Kind : uint8_t { sim, file, v4l2 } kind = Kind::sim;
+  enum class Kind : uint8_t { sim, file, v4l2, libcamera } kind = Kind::sim;
   TankSettings tank;    // sim
   int64_t frames = -1;  // sim: where it ends; -1 = never
   std::string path;     // file
   V4l2Settings v4l2;
+  LibcameraSettings libcamera;
 };
 
 CameraSpec parse_camera_spec(const std::string& text);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/camera_list.h"
+#include "app/manual/manual.h"
 #include "app/nearest_name.h"
 #include "app/text_file.h"
 #include "platform/camera.h"
@@ -68,6 +69,7 @@ Action parse_command_line(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   add_list_cameras(app);
+  add_manual_options(app);
   Action action;
   for (const auto add : {add_live, add_capture, add_animate, add_takes, add_edit, add_play, add_export, add_character,
                          add_markers, add_bench, add_doctor})
@@ -77,6 +79,8 @@ Action parse_command_line(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const ListCameras&) {
     return [] { write_text("-", camera_list_text()); };
+  } catch (const WriteManual& wanted) {
+    return [text = manual(app, wanted.kind)] { write_text("-", text); };
   } catch (const CLI::CallForVersion& version) {
     return [text = std::string(version.what()) + "\n"] { write_text("-", text); };
   } catch (const CLI::CallForHelp&) {

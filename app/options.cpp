@@ -135,7 +135,8 @@ void add_capture_options(CLI::App& command, CaptureOptions& o) {
       "-c,--camera", [&o](const std::string& s) { o.camera = parse_camera_spec(s); }, "SPEC",
       "where frames come from: sim[:scene=NAME][,seed=N][,size=WxH][,fps=N][,frames=N] is the simulated tank, "
       "file:PATH (or just PATH) a video or image sequence, "
-      "v4l2:/dev/videoN[,size=WxH][,fps=N][,format=NAME][,lock=on|off][,mains=50|60|off|auto][,wait=S] a camera")
+      "v4l2:/dev/videoN[,size=WxH][,fps=N][,format=NAME][,lock=on|off][,mains=50|60|off|auto][,wait=S] a camera, "
+      "libcamera[:ID][,size=WxH][,fps=N][,lock=on|off] one of libcamera's (those on a ribbon cable)")
       ->required();
   add_list_cameras(command);
   text(

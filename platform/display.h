@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where scenes go: a window, or an off-screen picture. The scene is drawn by the same renderer in both.
+// Where scenes go: a window, a screen without a desktop, an off-screen picture, or nowhere. What is drawn is drawn by the same
+// renderer (OpenGL ES 3.0) in all.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -29,15 +30,26 @@ struct DisplaySize {
   int width = 0, height = 0;  // pixels
 };
 
+// window: X11 or Wayland; kms: a whole screen without a desktop; egl: an off-screen picture; null: nothing is drawn.
+// automatic: a window where there is a desktop, else kms; never what nobody sees.
+enum class DisplayKind : uint8_t { automatic, window, kms, egl, null };
+const char* to_string(DisplayKind kind);
+
 // large: a window, or the whole screen where that is no larger than the window asked for
 enum class WindowMode : uint8_t { window, large, full_screen };
+
+struct WindowSettings {
+  WindowMode mode = WindowMode::window;
+  DisplayKind kind = DisplayKind::automatic;  // not egl, not null
+  int rotation_deg = 0;                       // clockwise, of what a screen shows: 0, 90, 180, 270
+};
 
 class Display {
  public:
   virtual ~Display() = default;
-  virtual std::string name() const = 0;      // "SDL2 window (x11)", "EGL surfaceless"
+  virtual std::string name() const = 0;      // "SDL2 window (x11)", "EGL surfaceless", "null"
   virtual std::string renderer() const = 0;  // GL_RENDERER and version
-  virtual DisplaySize size() const = 0;
+  virtual DisplaySize size() const = 0;      // as the picture stands, rotation undone
   void draw(const Scene& scene) { draw_over(scene, {}); }
   // `over`, when there is one, draws on with the GL context that is current then, before the picture is shown.
   virtual void draw_over(const Scene& scene, const std::function<void()>& over) = 0;
@@ -48,9 +60,11 @@ class Display {
   virtual void poll(std::vector<InputEvent>& events) { events.clear(); }
 };
 
-// Both throw UserError with one line when there is no display / no GLES 3.
+// Throw UserError with one line when there is no display / no GLES 3.
 std::unique_ptr<Display> open_headless_display(int width, int height);
 std::unique_ptr<Display> open_sdl_display(const std::string& title, int width, int height,
-                                          WindowMode mode = WindowMode::window);
+                                          const WindowSettings& settings = {});
+// Needs nothing and shows nothing: the rest of the program runs as with any other.
+std::unique_ptr<Display> open_null_display(int width, int height);
 
 }  // namespace nt

@@ -57,7 +57,7 @@ void add_correction_options(CLI::App& command, CorrectionOptions& options) {
   command.add_flag("--list", options.list, "print every control point and how sure it is (--json: for machines)");
   command.add_flag("--json", options.json, "--list as JSON");
   command.add_flag("--edit", options.edit, "open a window: drag points, draw the midline, place fins, test-swim, save");
-  add_window_options(command, options.window_size, options.full_screen);
+  add_window_options(command, options.window_size, options.display);
 }
 
 Corrections corrections_for(const CorrectionOptions& options, const std::string& character_path) {
@@ -123,9 +123,8 @@ void edit_character(const std::string& path, const Character& character, const C
                     const CorrectionOptions& options,
                     const std::function<void(const Character&, const Corrections&)>& save) {
   const Size size = parse_size("--window-size", options.window_size);
-  const std::unique_ptr<Display> display =
-      open_window("neontetra: " + std::filesystem::path(path).filename().string(), size.width, size.height,
-                  options.full_screen ? WindowMode::full_screen : WindowMode::large);
+  const std::unique_ptr<Display> display = open_window("neontetra: " + std::filesystem::path(path).filename().string(),
+                                                       size.width, size.height, options.display, WindowMode::large);
   CharacterEditor editor(*display, std::filesystem::path(path).filename().string(), character, corrections, save);
   run(editor);
 }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/author/rigged_figure.h"
-#include "platform/display.h"
+#include "app/ui/window.h"
 
 namespace CLI {
 class App;
@@ -24,7 +24,7 @@ struct CorrectionOptions {
   std::vector<std::string> set;  // --set, and the options that say the same
   bool edit = false, list = false, json = false;
   std::string window_size = "1280x720";
-  bool full_screen = false;
+  DisplayOptions display;
 };
 
 void add_correction_options(CLI::App& command, CorrectionOptions& options);

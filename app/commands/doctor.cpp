@@ -22,6 +22,7 @@
 #include "platform/codecs.h"
 #include "platform/display.h"
 #include "platform/linux/jpeg_planes.h"
+#include "platform/linux/libcamera_camera.h"
 #include "platform/linux/v4l2_list.h"
 
 namespace nt {
@@ -54,17 +55,31 @@ Finding off_screen() {
 
 Finding window() {
   try {
-    const std::unique_ptr<Display> display = open_window("neontetra doctor", 64, 64);
+    const std::unique_ptr<Display> display = find_display("neontetra doctor", 64, 64, {});
     return {"window", display->name() + ", " + display->renderer(), true, ""};
   } catch (const UserError& error) {
     return {"window", "none", false, std::string(error.what()) + " (only 'live' needs one)"};
   }
 }
 
+// What reads and writes videos, pictures and meshes need not be installed.
+Finding ffmpeg() {
+  try {
+    return {"ffmpeg", codecs().ffmpeg_version(), true, ""};
+  } catch (const UserError& error) {
+    return {"ffmpeg", "none", false, error.what()};
+  }
+}
+
 Finding h264() {
-  const char* name = codecs().h264_encoder();
-  if (name != nullptr) return {"h264_encoder", name, true, ""};
-  return {"h264_encoder", "none", false, "videos are written as MPEG-4; for H.264 install libavcodec-extra"};
+  const std::string advice = "videos are written as MPEG-4; for H.264 install libavcodec-extra";
+  try {
+    const char* name = codecs().h264_encoder();
+    if (name != nullptr) return {"h264_encoder", name, true, ""};
+    return {"h264_encoder", "none", false, advice};
+  } catch (const UserError&) {
+    return {"h264_encoder", "none", false, "without FFmpeg no videos are read or written"};
+  }
 }
 
 Finding memory() {
@@ -127,6 +142,17 @@ Finding cameras() {
   return {"cameras", names.empty() ? "none" : names, problems.empty(), problems};
 }
 
+Finding libcamera_cameras() {
+  try {
+    std::string names;
+    for (const LibcameraEntry& camera : list_libcamera_cameras())
+      names += (names.empty() ? "" : "; ") + camera.model + " (libcamera:" + camera.id + ")";
+    return {"libcamera", names.empty() ? "sees no camera" : names, true, ""};
+  } catch (const UserError& error) {
+    return {"libcamera", "none", false, std::string(error.what()) + " (only --camera libcamera needs it)"};
+  }
+}
+
 Finding jpeg_cameras() {
   try {
     (void)open_jpeg_planes();
@@ -138,10 +164,12 @@ Finding jpeg_cameras() {
 
 std::vector<Finding> look() {
   return {{"version", "neontetra " NEONTETRA_VERSION, true, ""},
-          {"libraries", std::string("OpenCV ") + CV_VERSION + ", FFmpeg " + codecs().ffmpeg_version(), true, ""},
+          {"libraries", std::string("OpenCV ") + CV_VERSION, true, ""},
+          ffmpeg(),
           machine(),
           simd(),
           cameras(),
+          libcamera_cameras(),
           jpeg_cameras(),
           off_screen(),
           window(),

@@ -24,7 +24,7 @@ struct Options {
   bool list = false, clear = false;
   int fish = -1;
   std::string window_size = "1280x720";
-  bool full_screen = false;
+  DisplayOptions display;
 };
 
 std::vector<std::string> lines_of(const std::vector<Edit>& edits) {
@@ -64,7 +64,7 @@ void open_editor(const Options& options) {
   const Wardrobe wardrobe({options.character}, std::nullopt);
   const std::unique_ptr<Display> display =
       open_window("neontetra: " + std::filesystem::path(options.take).filename().string(), size.width, size.height,
-                  options.full_screen ? WindowMode::full_screen : WindowMode::large);
+                  options.display, WindowMode::large);
   TakeEditor editor(*display, std::move(clip), wardrobe,
                     [&](const std::vector<Edit>& edits) { take.set_edits(lines_of(edits)); });
   run(editor);
@@ -96,7 +96,7 @@ void add_edit(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_option("--fish", options->fish, "which fish of the take the editor shows (default: the first)")
       ->type_name("N");
-  add_window_options(*command, options->window_size, options->full_screen);
+  add_window_options(*command, options->window_size, options->display);
   command->add_flag("--list", options->list, "print the list");
   command->add_flag("--clear", options->clear, "back to the recording");
   command->footer(

@@ -28,6 +28,7 @@
 #include "app/ui/overlay.h"
 #include "app/ui/window.h"
 #include "platform/linux/clock.h"
+#include "platform/linux/service_notice.h"
 
 namespace nt {
 namespace {
@@ -49,6 +50,7 @@ struct Options {
   double pre_record_s = 5;
   bool keep_video = false;
   std::string json;
+  DisplayOptions display;
 };
 
 class Live {
@@ -63,8 +65,8 @@ class Live {
         backdrop_(options.backdrop, actor_pane_, session_),
         hud_(options.info_text),
         past_(static_cast<int>(options.pre_record_s * session_.info().fps) * session_.capture().fish_count()),
-        display_(
-            open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width, actor_pane_.height)),
+        display_(open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width,
+                             actor_pane_.height, options.display)),
         pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {
     if (options.take.empty()) return;
     TakeInfo info = take_info(session_, std::filesystem::path(options.take).stem().string());
@@ -79,6 +81,7 @@ class Live {
       handle_events();
       if (!paused_ && frame_due() && !next_frame()) break;
       draw();
+      service_.alive(last_draw_ns_);
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
     if (recording_ != nullptr) end_recording();
@@ -223,6 +226,7 @@ class Live {
   PreRecord past_;
   std::unique_ptr<Display> display_;
   Pacer pacer_;
+  ServiceNotice service_;
   std::vector<InputEvent> events_;
   Scene scene_;
   std::unique_ptr<Recording> recording_;
@@ -260,6 +264,7 @@ void add_live(CLI::App& app, Action& action) {
     options->backdrop = backdrop;
     options->has_backdrop = true;
   });
+  add_display_options(*command, options->display, true);
   command
       ->add_option_function<std::string>(
           "--info-text",

@@ -40,6 +40,7 @@ struct Options {
   float bone_weight = LatticeSettings{}.w_d;
   std::string embedding = "phong";
   bool stacked = false, json = false, drag = false;
+  DisplayOptions display;  // --drag
 };
 
 struct Summary {
@@ -233,8 +234,8 @@ void drag(const Options& options) {
   constexpr int64_t kFramePeriod_ns = 1'000'000'000 / 60;
   const LoadedCharacter file = character_to_pull(options);
   Drag drag(file.character(), kWindowWidth, kWindowHeight);
-  const std::unique_ptr<Display> display =
-      open_window("neontetra: pull, u: last pin goes, x: all go, q: quit", kWindowWidth, kWindowHeight);
+  const std::unique_ptr<Display> display = open_window("neontetra: pull, u: last pin goes, x: all go, q: quit",
+                                                       kWindowWidth, kWindowHeight, options.display);
   std::vector<InputEvent> events;
   Scene scene;
   for (bool more = true; more && !interrupted();) {
@@ -309,6 +310,7 @@ void add_markers(CLI::App& app, Action& action) {
   command->add_option("--out", options->out, "a film of it")->type_name("VIDEO");
   command->add_option("--csv", options->csv, "the lattice's vertices, a row a frame")->type_name("FILE");
   command->add_flag("--json", options->json, "what was measured, as JSON");
+  add_display_options(*command, options->display, false);
   command->footer("Example: neontetra markers walk.c3d --mesh human.obj --out walk.mp4");
   command->callback([&action, options] { action = [options] { markers(*options); }; });
 }

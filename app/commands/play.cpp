@@ -31,6 +31,7 @@ struct Options {
   TakeOptions take;
   BackdropOption backdrop;
   std::string out;
+  DisplayOptions display;
 };
 
 class Player {
@@ -56,8 +57,8 @@ class Player {
                  troupe_.fps());
   }
 
-  void window() {
-    display_ = open_window("neontetra", pane_.width, pane_.height);
+  void window(const DisplayOptions& options) {
+    display_ = open_window("neontetra", pane_.width, pane_.height, options);
     Pacer pacer(static_cast<int64_t>(1e9 / troupe_.fps()));
     pacer.start(steady_now_ns());
     troupe_.show(0, 1);
@@ -164,7 +165,7 @@ void play(Options options) {
   const double fps = fish.front().info.fps;
   if (!moments.rate) moments.rate = fps * std::max(1.0, std::floor(kSmoothFps / fps + 0.01));
   Player player(fish.front().info, options, performances_of(fish, options.take));
-  if (options.out.empty()) player.window();
+  if (options.out.empty()) player.window(options.display);
   else player.film(options.out);
 }
 
@@ -179,6 +180,7 @@ void add_play(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.01, 100.0));
   command->add_option("-o,--out", options->out, "a video in place of the window")->type_name("FILE.mp4");
   add_backdrop_option(*command, [options](const BackdropOption& backdrop) { options->backdrop = backdrop; });
+  add_display_options(*command, options->display, true);
   command->footer(std::string("Keys: ") + kKeys +
                   "\nExample: neontetra play noon.take --character carp.ntchar --speed 0.5 --loop");
   command->callback([&action, options] { action = [options] { play(*options); }; });

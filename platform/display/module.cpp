@@ -8,6 +8,7 @@ extern "C" __attribute__((visibility("default"))) void neontetra_open_headless_d
 }
 
 extern "C" __attribute__((visibility("default"))) void neontetra_open_sdl_display(
-    const std::string& title, int width, int height, nt::WindowMode mode, std::unique_ptr<nt::Display>& display) {
-  display = nt::open_sdl_display(title, width, height, mode);
+    const std::string& title, int width, int height, const nt::WindowSettings& settings,
+    std::unique_ptr<nt::Display>& display) {
+  display = nt::open_sdl_display(title, width, height, settings);
 }

@@ -21,11 +21,12 @@ std::unique_ptr<Display> open_headless_display(int width, int height) {
   return display;
 }
 
-std::unique_ptr<Display> open_sdl_display(const std::string& title, int width, int height, WindowMode mode) {
-  using Open = void (*)(const std::string&, int, int, WindowMode, std::unique_ptr<Display>&);
+std::unique_ptr<Display> open_sdl_display(const std::string& title, int width, int height,
+                                          const WindowSettings& settings) {
+  using Open = void (*)(const std::string&, int, int, const WindowSettings&, std::unique_ptr<Display>&);
   static const auto open = reinterpret_cast<Open>(display_function("neontetra_open_sdl_display"));
   std::unique_ptr<Display> display;
-  open(title, width, height, mode, display);
+  open(title, width, height, settings, display);
   return display;
 }
 

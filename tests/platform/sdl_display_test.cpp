@@ -14,10 +14,10 @@ namespace {
 
 class SdlDisplayTest : public ::testing::Test {
  protected:
-  void open(int width, int height) {
+  void open(int width, int height, int rotation_deg = 0) {
     setenv("SDL_VIDEODRIVER", "offscreen", 1);
     try {
-      display_ = open_sdl_display("test", width, height);
+      display_ = open_sdl_display("test", width, height, {.rotation_deg = rotation_deg});
     } catch (const UserError& error) {
       GTEST_SKIP() << error.what();
     }
@@ -92,6 +92,50 @@ TEST_F(SdlDisplayTest, ClicksAreScenePixelsAndBarsAreNotTheScene) {
   EXPECT_FLOAT_EQ(events[0].at.y, 0);
   EXPECT_FLOAT_EQ(events[1].at.x, 25);
   EXPECT_FLOAT_EQ(events[1].at.y, 25);
+}
+
+// A scene of 40x20 with a coloured corner, in a window of that size: where the corner comes to lie, and that a click there is a
+// click on the corner.
+struct Turn {
+  int rotation_deg;
+  int corner_x, corner_y;  // on the screen, pixels, y down
+};
+class TurnedDisplayTest : public SdlDisplayTest, public ::testing::WithParamInterface<Turn> {};
+
+TEST_P(TurnedDisplayTest, ThePictureTurnsClockwiseAndThePointerFollows) {
+  const Turn turn = GetParam();
+  open(40, 20, turn.rotation_deg);
+  if (!display_) return;
+  EXPECT_EQ(display_->size().width, 40);
+  EXPECT_EQ(display_->size().height, 20);
+  Scene scene;
+  scene.clear(40, 20, {0, 0, 1, 1});
+  const Vec2 corner[] = {{0, 0}, {8, 0}, {8, 8}, {0, 8}, {0, 0}};
+  scene.lines(corner, {1, 0, 0, 1}, 8.0f);
+  display_->draw(scene);
+  const int height = turn.rotation_deg % 180 == 0 ? 20 : 40;
+  uint8_t rgba[4] = {};
+  glReadPixels(turn.corner_x, height - 1 - turn.corner_y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  EXPECT_GT(rgba[0], 200);
+  EXPECT_LT(rgba[2], 60);
+  std::vector<InputEvent> events;
+  display_->poll(events);
+  push_click(turn.corner_x, turn.corner_y);
+  display_->poll(events);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_NEAR(events[0].at.x, 1, 1.01f);
+  EXPECT_NEAR(events[0].at.y, 1, 1.01f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Turns, TurnedDisplayTest,
+                         ::testing::Values(Turn{0, 1, 1}, Turn{90, 18, 1}, Turn{180, 38, 18}, Turn{270, 1, 38}));
+
+TEST(NullDisplayTest, TakesScenesAndShowsNothing) {
+  const std::unique_ptr<Display> display = open_null_display(30, 20);
+  display->draw(TestScene().scene);
+  EXPECT_EQ(display->size().width, 30);
+  EXPECT_TRUE(display->pixels().empty());
+  EXPECT_THROW(open_null_display(0, 20), UserError);
 }
 
 TEST_F(SdlDisplayTest, KeysAndQuit) {

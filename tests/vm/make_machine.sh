@@ -1,40 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# make_machine.sh FOLDER: an arm64 Debian 12 machine for QEMU, from Debian's packages: FOLDER/{root,kernel,initrd}.
+# make_machine.sh [--once] FOLDER: an arm64 Debian 12 machine for QEMU, from Debian's packages: FOLDER/{root,kernel,initrd}.
 #
 # root is a plain folder that the machine mounts over 9p, so there is no image to pack; it is the sysroot of the cross build
-# too (toolchains/aarch64.cmake, NEONTETRA_SYSROOT). Packages are unpacked, never configured, so nothing of them runs here.
-# Needs root's rights or user namespaces (mmdebstrap), cpio, kmod. About two minutes and 2 GB.
+# too (toolchains/make_sysroot.sh, preset pi64). Needs root's rights or user namespaces (mmdebstrap), cpio, kmod. About two minutes and 2 GB.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+if [[ $1 == --once ]]; then  # unless it is there already, made by the same files
+  stamp=$(cat "$here"/{make_machine.sh,packages.txt,guest/init} "$here/../../toolchains/make_sysroot.sh" | sha256sum)
+  [[ $(cat "$2/stamp" 2>/dev/null) == "$stamp" ]] && exit
+  "$0" "$2" && echo "$stamp" >"$2/stamp"
+  exit
+fi
 folder=$(realpath -m "${1:?make_machine.sh FOLDER}")
 # The kernel modules that the machine may load; these, and what they depend on, are kept.
 modules="virtio_pci 9pnet_virtio 9p vivid uvcvideo dummy_hcd gadgetfs virtio-gpu"
 boot_modules="virtio_pci 9pnet_virtio 9p"  # before there is a root file system
-packages=$(sed 's/#.*//' "$here/packages.txt" | xargs | tr ' ' ,)
-
-# Where this machine itself gets a suite from, whatever mirror that is.
-mirror() { apt-get indextargets --format '$(REPO_URI) $(CODENAME)' 'Created-By: Packages' | awk -v suite="$1" '$2 == suite { print $1; exit }'; }
-
-unpack() {
-  rm -rf "$folder/root"
-  mmdebstrap --quiet --variant=extract --arch=arm64 --skip=check/qemu --include="$packages" \
-    --setup-hook='mkdir -p "$1"/usr/lib "$1"/usr/bin "$1"/usr/sbin; for d in lib bin sbin; do ln -s usr/$d "$1/$d"; done' \
-    bookworm "$folder/root" "$@"
-}
-
-# Absolute links would lead out of the folder; update-alternatives, which did not run, would have linked lapack and blas.
-mend_links() {
-  local link library file
-  while IFS= read -r -d '' link; do
-    ln -sfn "$(realpath -m -s --relative-to="$(dirname "$link")" "$folder/root$(readlink "$link")")" "$link"
-  done < <(find "$folder/root" -type l -lname '/*' -print0)
-  for library in lapack blas; do
-    for file in "$folder"/root/usr/lib/*/$library/lib$library.so.3; do
-      ln -sfn "$library/lib$library.so.3" "$(dirname "$(dirname "$file")")/lib$library.so.3"
-    done
-  done
-}
+packages=$(sed 's/#.*//' "$here/packages.txt" | xargs)
 
 # dependencies MODULE...: their files in the order in which they are loaded.
 dependencies() {
@@ -69,14 +51,10 @@ pack_initrd() {
 }
 
 mkdir -p "$folder"
-main="deb $(mirror bookworm) bookworm main"
-security="deb $(mirror bookworm-security) bookworm-security main"
-# The security suite of a port is at times out of step with its own index: then the point release alone.
-unpack "$main" "$security" || unpack "$main"
+# shellcheck disable=SC2086  # a list of words
+"$here/../../toolchains/make_sysroot.sh" arm64 "$folder/root" $packages
 cd "$folder/root"
 mkdir -p dev proc sys tmp run mnt root
-mend_links
-rm -rf usr/share/{doc/[!l]*,man,locale} var/cache/apt var/lib/apt
 printf 'root:x:0:0:root:/root:/bin/sh\n' >etc/passwd
 printf 'root:x:0:\nvideo:x:44:\ninput:x:104:\nrender:x:105:\n' >etc/group
 release=$(ls lib/modules)

@@ -16,16 +16,6 @@ program=$root/build/sim/app/neontetra
 SECONDS=0
 say() { printf 'vm: [%3d s] %s\n' "$SECONDS" "$*"; }
 
-make_machine() {
-  local stamp
-  stamp=$(cat "$here"/{make_machine.sh,packages.txt,guest/init} | sha256sum)
-  if [[ $(cat "$machine/stamp" 2>/dev/null) != "$stamp" ]]; then
-    say "making the machine"
-    "$here/make_machine.sh" "$machine"
-    echo "$stamp" >"$machine/stamp"
-  fi
-}
-
 # For the machine: the program and its modules, the USB camera, the guest's scripts. Here: the same program, and the clips.
 build() {
   cd "$root"
@@ -53,7 +43,8 @@ expect() {
 run() { "$here/run_machine.sh" "$machine" "$share" "$1"; }
 
 mkdir -p "$machine"
-make_machine
+say "the machine"
+"$here/make_machine.sh" --once "$machine"
 say "building the program for arm64"
 build
 say "what is expected"

@@ -125,6 +125,12 @@ void trim(const std::vector<std::string>& files, const std::string& range) {
     const int64_t frames = take.summary().frames;
     if (first >= frames)
       throw UserError(file + ": has " + std::to_string(frames) + " frames; --trim " + range + " would leave none");
+    const std::size_t edits = take.edits().size();
+    if (edits > 0)  // they name frames by the numbers that would change
+      throw UserError(file + ": has " + std::to_string(edits) +
+                      " edits, which count its frames; trim it in the editor, or take the edits away first: neontetra "
+                      "edit " +
+                      file + " --clear");
     take.trim(first, last);
   }
 }
@@ -137,6 +143,8 @@ void join(const std::vector<std::string>& files, const std::string& out) {
   for (const std::string& file : files) {
     Take take = open(file, Take::Access::read);
     if (frames.empty()) info = take.info();
+    if (!take.edits().empty())
+      std::fprintf(stderr, "%s: joined as it was recorded, without its %zu edits\n", file.c_str(), take.edits().size());
     if (take.info().width != info.width || take.info().height != info.height || take.info().u_num != info.u_num ||
         take.info().l_num != info.l_num)
       throw UserError(file + ": another working size or number of bones than " + files.front() +

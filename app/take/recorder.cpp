@@ -57,14 +57,18 @@ void TakeRecorder::commit() {
 
 void TakeRecorder::store() {
   try {
+    using std::chrono::steady_clock;
+    const std::chrono::milliseconds period(period_ms_);
     take_.append(past_);
     past_ = {};
+    auto due = steady_clock::now() + period;
     for (bool last = false; !last;) {
       {
         std::unique_lock lock(mutex_);
-        wake_.wait_for(lock, std::chrono::milliseconds(period_ms_), [this] { return stop_ || half_full(); });
+        wake_.wait_until(lock, due, [this] { return stop_ || half_full(); });
         last = stop_;
       }
+      due = steady_clock::now() + period;  // from one commit's beginning to the next one's
       commit();
     }
     take_.close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a take while capture runs: frames go into a fixed ring, a thread of its own commits them once a period (a second).
+// Writes a take while capture runs: frames go into a fixed ring, a thread of its own commits them once a period.
 //
 // add() never waits and never allocates: a slow disk fills the ring and then frames are counted as not recorded,
 // but capture goes on. A run faster than real time is committed whenever half the ring is full. When the disk fails the thread stops, says so once in failure(), and what was
@@ -20,7 +20,7 @@ namespace nt {
 class TakeRecorder {
  public:
   static constexpr int kRingFrames = 2048;
-  static constexpr int kPeriod_ms = 1000;
+  static constexpr int kPeriod_ms = 900;  // with the commit itself no more than a second is lost
   // Throws UserError when the file cannot be made. `period_ms` between two commits. `past`: frames that come first.
   TakeRecorder(const std::string& path, const TakeInfo& info, int period_ms = kPeriod_ms,
                std::vector<TakeFrame> past = {});

@@ -48,6 +48,13 @@ TEST(TakesCommand, ListsRenamesTrimsJoinsAndDeletes) {
   }
   EXPECT_EQ(neontetra("takes --name 'calm water' --tags blue " + (dir / "b.take")).exit_code, 0);
   EXPECT_EQ(neontetra("takes --trim 10:29 " + (dir / "b.take")).exit_code, 0);
+  // Edits name frames by the numbers that a trim would change.
+  write_text(dir / "edits", std::string("set tail_angle 30 -1.2\n"));
+  EXPECT_EQ(neontetra("edit " + (dir / "a.take") + " --edits " + (dir / "edits")).exit_code, 0);
+  const Outcome edited = neontetra("takes --trim 10:29 " + (dir / "a.take"));
+  EXPECT_EQ(edited.exit_code, 1);
+  EXPECT_NE(edited.err.find("has 1 edits, which count its frames"), std::string::npos) << edited.err;
+  EXPECT_EQ(edited.error_lines(), 1) << edited.err;
   EXPECT_EQ(neontetra("takes --join " + (dir / "c.take") + " " + (dir / "a.take") + " " + (dir / "b.take")).exit_code,
             0);
   const Outcome list = neontetra("takes --json " + dir.path());

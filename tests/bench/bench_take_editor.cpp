@@ -132,7 +132,7 @@ void run(int frames, const std::string& character, nt::DisplaySize size, bool js
   const nt::TempDir folder;
   const std::string path = folder / "long.take";
   record(path, frames);
-  setenv("SDL_VIDEODRIVER", "offscreen", 1);
+  setenv("SDL_VIDEODRIVER", "offscreen", 0);
   const nt::Wardrobe wardrobe({character}, std::nullopt);
   const std::unique_ptr<nt::Display> display = nt::open_sdl_display("bench", size.width, size.height);
   nt::give_back_freed_memory();

@@ -8,6 +8,7 @@
 #include "platform/camera.h"
 
 namespace nt {
+namespace {
 
 // One program a shape, not one that asks which: a software renderer runs every branch of a fragment shader, and a `discard` in
 // one of them costs all others their early depth test.
@@ -43,8 +44,6 @@ void main() {
 )";
 }
 
-namespace {
-
 unsigned compile(unsigned kind, const std::string& source_text) {
   const char* source = source_text.c_str();
   const unsigned shader = glCreateShader(kind);
@@ -59,8 +58,12 @@ unsigned compile(unsigned kind, const std::string& source_text) {
 }  // namespace
 
 unsigned link_program(const char* vertex_shader, Shape shape, const char* feedback) {
+  return link_program(vertex_shader, scene_fragment_shader(shape), feedback);
+}
+
+unsigned link_program(const char* vertex_shader, const std::string& fragment_shader, const char* feedback) {
   const unsigned vertex = compile(GL_VERTEX_SHADER, vertex_shader);
-  const unsigned fragment = compile(GL_FRAGMENT_SHADER, scene_fragment_shader(shape));
+  const unsigned fragment = compile(GL_FRAGMENT_SHADER, fragment_shader);
   const unsigned program = glCreateProgram();
   glAttachShader(program, vertex);
   glAttachShader(program, fragment);

@@ -14,25 +14,19 @@ namespace {
 constexpr const char* kVertexShader = R"(#version 300 es
 uniform vec2 turn;
 out vec2 v_uv;
+out mediump vec4 v_colour;
 void main() {
   vec2 corner = vec2(float(gl_VertexID % 2), float(gl_VertexID / 2));
   vec2 at = 2.0 * corner - 1.0;
   v_uv = corner;
+  v_colour = vec4(1.0);
   gl_Position = vec4(turn.x * at.x + turn.y * at.y, turn.x * at.y - turn.y * at.x, 0.0, 1.0);
 }
 )";
-constexpr const char* kFragmentShader = R"(#version 300 es
-precision mediump float;
-in vec2 v_uv;
-uniform sampler2D picture;
-out vec4 fragment;
-void main() { fragment = vec4(texture(picture, v_uv).rgb, 1.0); }
-)";
-
 }  // namespace
 
 TurnedTarget::TurnedTarget(int rotation_deg)
-    : rotation_deg_(rotation_deg), program_(link_program(kVertexShader, kFragmentShader)) {
+    : rotation_deg_(rotation_deg), program_(link_program(kVertexShader, Shape::textured)) {
   glGenVertexArrays(1, &vertex_array_);
   glGenFramebuffers(1, &framebuffer_);
   glGenTextures(1, &colour_);

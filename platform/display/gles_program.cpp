@@ -58,12 +58,8 @@ unsigned compile(unsigned kind, const std::string& source_text) {
 }  // namespace
 
 unsigned link_program(const char* vertex_shader, Shape shape, const char* feedback) {
-  return link_program(vertex_shader, scene_fragment_shader(shape), feedback);
-}
-
-unsigned link_program(const char* vertex_shader, const std::string& fragment_shader, const char* feedback) {
   const unsigned vertex = compile(GL_VERTEX_SHADER, vertex_shader);
-  const unsigned fragment = compile(GL_FRAGMENT_SHADER, fragment_shader);
+  const unsigned fragment = compile(GL_FRAGMENT_SHADER, scene_fragment_shader(shape));
   const unsigned program = glCreateProgram();
   glAttachShader(program, vertex);
   glAttachShader(program, fragment);

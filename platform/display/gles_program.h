@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vertex shader and the shape that its triangles show, or a fragment shader -> a program.
+// A vertex shader and the shape that its triangles show -> a program.
 //
 // `feedback`: a vertex shader's output to be read back, or null. Throws UserError with one line when the driver cannot.
 #pragma once
 #include <cstdint>
-#include <string>
 
 namespace nt {
 
@@ -13,6 +12,5 @@ enum class Shape : uint8_t { textured, band, disc, solid, plain };
 inline constexpr int kShapes = 5;
 
 unsigned link_program(const char* vertex_shader, Shape shape, const char* feedback = nullptr);
-unsigned link_program(const char* vertex_shader, const std::string& fragment_shader, const char* feedback = nullptr);
 
 }  // namespace nt

@@ -1,14 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The simulated USB camera through uvcvideo, then pulled out while it films.
 . /mnt/check.sh
-echo -1 >/sys/module/usbcore/parameters/autosuspend
-mkdir -p /dev/gadget
-mount -t gadgetfs gadget /dev/gadget || fail "no gadgetfs"
-cp small/clip.yuyv usb_camera /run/
-/run/usb_camera 480 272 5 /run/clip.yuyv &
-camera=$!
-for _ in $(seq 100); do [[ -e /dev/video0 ]] && break || sleep 0.1; done
-[[ -e /dev/video0 ]] || fail "uvcvideo does not see the camera"
+. /mnt/usb_camera.sh
+start_usb_camera
 watch=(capture --background vibe --repair off)
 neontetra "${watch[@]}" --camera v4l2:/dev/video0 --frames 50 --csv usb.csv --frame-hashes usb.hashes 2>usb.txt ||
   { cat usb.txt; fail "the USB camera"; }

@@ -23,27 +23,37 @@ double dot_of(std::span<const float> a, std::span<const float> b) {
 
 void Anderson::create(Arena& arena, std::size_t size) {
   for (int k = 0; k < kWindow; ++k) {
+    delta_x_[k] = arena.take<float>(size);
     delta_f_[k] = arena.take<float>(size);
-    delta_g_[k] = arena.take<float>(size);
   }
   last_f_ = arena.take<float>(size);
-  last_g_ = arena.take<float>(size);
 }
 
-void Anderson::restart() { used_ = oldest_ = guarded_ = 0, has_last_ = mixed_ = false; }
+void Anderson::restart() { used_ = guarded_ = 0, mixed_ = false; }
 
-// Puts the newest differences into the oldest place and brings the Gram matrix up to date.
-void Anderson::remember(std::span<const float> f, std::span<const float> x) {
-  const int slot = used_ < kWindow ? used_++ : oldest_;
-  oldest_ = (slot + 1) % kWindow;
-  float* df = delta_f_[slot].data();
-  float* dg = delta_g_[slot].data();
-  for (std::size_t i = 0; i < f.size(); i += 4) {
-    const Float4 now = load4(&f[i]), change = now - load4(&last_f_[i]);
-    store4(df + i, change);
-    store4(dg + i, load4(&x[i]) + now - load4(&last_g_[i]));
+double Anderson::plain(std::span<const float> f, std::span<float> x) {
+  restart();
+  for (std::size_t i = 0; i < f.size(); i += 4) store4(&x[i], load4(&x[i]) + load4(&f[i]));
+  return dot_of(f, f);
+}
+
+// To the plain iterate of one step ago.
+void Anderson::take_back(std::span<float> x) {
+  const std::span<const float> dx = delta_x_[newest_];
+  for (std::size_t i = 0; i < x.size(); i += 4) store4(&x[i], load4(&x[i]) - load4(&dx[i]) + load4(&last_f_[i]));
+  used_ = 0, mixed_ = false;
+  ++guarded_;
+}
+
+// What the newest step changed is known now. -dX^T dB is the change of -dX^T b, so it costs nothing.
+void Anderson::complete_pair(std::span<const float> b, std::span<const float> f) {
+  const std::span<float> df = delta_f_[newest_];
+  for (std::size_t i = 0; i < f.size(); i += 4) store4(&df[i], load4(&f[i]) - load4(&last_f_[i]));
+  for (int k = 0; k < used_; ++k) {
+    const double right = -dot_of(delta_x_[k], b);
+    gram_[k][newest_] = gram_[newest_][k] = right - right_[k];
+    right_[k] = right;
   }
-  for (int k = 0; k < used_; ++k) gram_[k][slot] = gram_[slot][k] = dot_of(delta_f_[k], delta_f_[slot]);
 }
 
 // Cholesky of the ridged Gram matrix; false if it is singular all the same.
@@ -70,32 +80,49 @@ bool Anderson::solve(double gamma[kWindow]) const {
   return true;
 }
 
-double Anderson::mix(std::span<const float> f, std::span<float> x) {
+// False, and no matter what, where there is none within reach. `step` may be the oldest pair's.
+bool Anderson::mixed_step(std::span<const float> f, std::span<float> step, double norm) const {
+  double gamma[kWindow], longest = norm;
+  if (!solve(gamma)) return false;
+  Float4 weight[kWindow];
+  for (int k = 0; k < used_; ++k) {
+    weight[k] = splat4(static_cast<float>(gamma[k]));
+    longest = longest < size_[k] ? size_[k] : longest;
+  }
+  for (std::size_t i = 0; i < f.size(); i += 4) {
+    Float4 sum = load4(&f[i]);
+    for (int k = 0; k < used_; ++k) sum -= weight[k] * (load4(&delta_x_[k][i]) + load4(&delta_f_[k][i]));
+    store4(&step[i], sum);
+  }
+  return dot_of(step, step) <= kReach * kReach * longest;
+}
+
+double Anderson::mix(std::span<const float> b, std::span<const float> f, std::span<float> x) {
   const double norm = dot_of(f, f);
   if (mixed_ && !(norm <= kGrowth * kGrowth * last_norm_)) {
-    for (std::size_t i = 0; i < f.size(); i += 4) store4(&x[i], load4(&last_g_[i]));
-    used_ = oldest_ = 0, has_last_ = mixed_ = false;
-    ++guarded_;
+    take_back(x);
     return norm;
   }
-  if (has_last_) remember(f, x);
-  for (std::size_t i = 0; i < f.size(); i += 4) {
-    const Float4 now = load4(&f[i]);
-    store4(&last_f_[i], now);
-    store4(&last_g_[i], load4(&x[i]) + now);
+  if (used_ > 0) complete_pair(b, f);
+  const int last = newest_;
+  newest_ = used_ == 0 ? 0 : (last + 1) % kWindow;
+  const std::span<float> step = delta_x_[newest_];
+  mixed_ = used_ > 0;
+  if (!mixed_) {
+    for (std::size_t i = 0; i < f.size(); i += 4) store4(&step[i], load4(&f[i]));
+  } else if (!mixed_step(f, step, norm)) {
+    for (std::size_t i = 0; i < f.size(); i += 4) store4(&step[i], load4(&f[i]) + load4(&delta_x_[last][i]));
   }
+  for (std::size_t i = 0; i < f.size(); i += 4) {
+    const Float4 from = load4(&x[i]), to = from + load4(&step[i]);
+    store4(&step[i], to - from);  // as rounded
+    store4(&x[i], to);
+    store4(&last_f_[i], load4(&f[i]));
+  }
+  used_ += used_ < kWindow;
+  right_[newest_] = -dot_of(step, b);
+  size_[newest_] = dot_of(step, step);
   last_norm_ = norm;
-  has_last_ = true;
-  for (int k = 0; k < used_; ++k) right_[k] = dot_of(delta_f_[k], f);
-  double gamma[kWindow];
-  mixed_ = used_ > 0 && solve(gamma);
-  Float4 weight[kWindow];
-  for (int k = 0; k < used_ && mixed_; ++k) weight[k] = splat4(static_cast<float>(gamma[k]));
-  for (std::size_t i = 0; i < f.size(); i += 4) {
-    Float4 next = load4(&last_g_[i]);
-    for (int k = 0; k < used_ && mixed_; ++k) next -= weight[k] * load4(&delta_g_[k][i]);
-    store4(&x[i], next);
-  }
   return norm;
 }
 

@@ -36,6 +36,7 @@ void Lattice::lay_out(Arena& arena) {
   x_ = arena.take<float>(floats_for(n_));
   last_ = arena.take<float>(floats_for(n_));
   before_ = arena.take<float>(floats_for(n_));
+  gradient_ = arena.take<float>(floats_for(n_));
   f_ = arena.take<float>(floats_for(n_));
   b_ = take4(arena, n_);
   if (view_.form == LatticeForm::stacked) h_ = take4(arena, n_);
@@ -306,10 +307,14 @@ double Lattice::iterate() {
   turn_vertices();
   sum_shape();
   add_constraints();
+  const auto pack = [&](std::span<float> to) {
+    for (std::size_t i = 0; i < n_; ++i) to[3 * i] = b_[i][0], to[3 * i + 1] = b_[i][1], to[3 * i + 2] = b_[i][2];
+  };
+  if (settings_.accelerate) pack(gradient_);
   factor_.solve(b_);
-  for (std::size_t i = 0; i < n_; ++i) f_[3 * i] = b_[i][0], f_[3 * i + 1] = b_[i][1], f_[3 * i + 2] = b_[i][2];
-  if (!settings_.accelerate) anderson_.restart();
-  return anderson_.mix(f_, x_);
+  pack(f_);
+  if (!settings_.accelerate) return anderson_.plain(f_, x_);
+  return anderson_.mix(gradient_, f_, x_);
 }
 
 // What the exact pass moved the bones by is spread over the vertices around them: eight sweeps of the harmonic mean.

@@ -126,6 +126,7 @@ class Lattice {
   std::size_t n_ = 0;
   float diagonal_ = 1.0f;               // of the bounding box at rest
   std::span<float> x_, last_, before_;  // the iterate and the last two frames', 3 floats a vertex and a tail
+  std::span<float> gradient_;           // of the energy, negative
   std::span<float> f_;                  // what a plain iteration would change
   std::span<Float4> b_, h_;             // right-hand side; h only in the stacked form
   std::span<float> columns_;            // of R, nine a vertex and a tail

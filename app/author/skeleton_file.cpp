@@ -2,14 +2,17 @@
 #include "app/author/skeleton_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "app/author/curve_skeleton.h"
 #include "platform/camera.h"
+#include "platform/codecs.h"
 
 namespace nt {
 namespace {
@@ -58,6 +61,16 @@ SkeletonSpec parse_skeleton(const std::string& text, const std::string& name) {
 }
 
 SkeletonSpec read_skeleton(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".bvh" || ending == ".glb" || ending == ".gltf") {
+    using Read = void (*)(const std::string&, SkeletonSpec&);
+    static const auto read = reinterpret_cast<Read>(codecs_function("neontetra_read_joints"));
+    SkeletonSpec out;
+    read(path, out);
+    return out;
+  }
   std::ifstream in(path);
   if (!in) throw UserError("cannot read " + path + "; is the name right?");
   return parse_skeleton(std::string((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>()), path);

@@ -2,6 +2,7 @@
 // A skeleton as text: one joint a line, parents first,
 //   NAME PARENT X Y Z [twist LOW HIGH] [y LOW HIGH] [z LOW HIGH]
 // PARENT is a name or -, positions in the mesh's unit, limits in degrees against the rest pose; # starts a comment.
+// Or the joints of a glTF, GLB or BVH file (app/codecs/joint_file.h), without limits.
 // Errors: UserError with one line that names the line.
 #pragma once
 #include <string>

@@ -8,17 +8,9 @@
 #include "app/aligned_block.h"
 #include "app/author/lattice_data.h"
 #include "core/deform/sparse_ldlt.h"
-#include "platform/linux/clock.h"
 
 namespace nt {
 namespace {
-
-template <class F>
-double time_us(F f) {
-  const int64_t before_ns = steady_now_ns();
-  f();
-  return static_cast<double>(steady_now_ns() - before_ns) * 1e-3;
-}
 
 // A solver in memory of its own.
 class OwnSolver {

@@ -12,6 +12,7 @@
 #include "app/mocap/marker_choice.h"
 #include "app/mocap/marker_puppet.h"
 #include "core/character/character.h"
+#include "platform/linux/clock.h"
 
 namespace nt {
 
@@ -43,5 +44,12 @@ LatticeFigures lattice_figures(const Character& character, const MarkerFile& fil
                                int64_t most_frames);
 
 double median_us(std::vector<double> samples);
+
+template <class F>
+double time_us(F f) {
+  const int64_t before_ns = steady_now_ns();
+  f();
+  return static_cast<double>(steady_now_ns() - before_ns) * 1e-3;
+}
 
 }  // namespace nt

@@ -77,7 +77,7 @@ std::vector<float> flat(const std::vector<Vec2>& points) {
   return values;
 }
 
-void add_material(const SkinnedModel& source, Builder& builder, tinygltf::Model& model) {
+void add_texture(const SkinnedModel& source, Builder& builder, tinygltf::Model& model) {
   tinygltf::Image image;
   image.name = source.name, image.mimeType = "image/png";
   image.bufferView = builder.view(source.png.data(), source.png.size(), 0);
@@ -89,9 +89,15 @@ void add_material(const SkinnedModel& source, Builder& builder, tinygltf::Model&
   tinygltf::Texture texture;
   texture.source = texture.sampler = 0;
   model.textures.push_back(texture);
+}
+
+void add_material(const SkinnedModel& source, Builder& builder, tinygltf::Model& model) {
   tinygltf::Material material;
   material.name = source.name, material.doubleSided = true;
-  material.pbrMetallicRoughness.baseColorTexture.index = 0;
+  if (!source.png.empty()) {
+    add_texture(source, builder, model);
+    material.pbrMetallicRoughness.baseColorTexture.index = 0;
+  }
   material.pbrMetallicRoughness.metallicFactor = 0, material.pbrMetallicRoughness.roughnessFactor = 0.8;
   if (source.drawing) {
     material.alphaMode = "BLEND";
@@ -110,7 +116,8 @@ void add_mesh(const SkinnedModel& source, Builder& builder, tinygltf::Model& mod
   primitive.attributes["POSITION"] = builder.bounded(flat(source.vertices), TINYGLTF_TYPE_VEC3, kVertices);
   if (!source.normals.empty())
     primitive.attributes["NORMAL"] = builder.floats(flat(source.normals), TINYGLTF_TYPE_VEC3, kVertices);
-  primitive.attributes["TEXCOORD_0"] = builder.floats(flat(source.texcoords), TINYGLTF_TYPE_VEC2, kVertices);
+  if (!source.texcoords.empty())
+    primitive.attributes["TEXCOORD_0"] = builder.floats(flat(source.texcoords), TINYGLTF_TYPE_VEC2, kVertices);
   std::vector<uint16_t> joints;
   std::vector<float> weights;
   for (const SkinVertex& vertex : source.skin) {
@@ -164,8 +171,18 @@ bool moves(const ModelJoint& joint, Vec3 rest) {
                      [&](Vec3 at) { return length(at - rest) > kStill * (1 + length(rest)); });
 }
 
-bool turns(const ModelJoint& joint) {
-  return std::any_of(joint.turn_rad.begin(), joint.turn_rad.end(), [](float turn) { return std::abs(turn) > 1e-7f; });
+// x, y, z, w of each key; nothing where the joint never turns.
+std::vector<float> rotations(const ModelJoint& joint, Vec3 axis) {
+  std::vector<Quat> keys = joint.turn;
+  for (const float turn : joint.turn_rad) {
+    const double half = 0.5 * static_cast<double>(turn);
+    const Vec3 part = axis * static_cast<float>(std::sin(half));
+    keys.push_back({static_cast<float>(std::cos(half)), part.x, part.y, part.z});
+  }
+  const bool turns = std::any_of(keys.begin(), keys.end(), [](Quat key) { return length(axis_part(key)) > 0.5e-7f; });
+  std::vector<float> values;
+  for (const Quat key : keys) values.insert(values.end(), {key.x, key.y, key.z, key.w});
+  return turns ? values : std::vector<float>{};
 }
 
 void add_animation(const SkinnedModel& source, Builder& builder, tinygltf::Model& model) {
@@ -186,15 +203,8 @@ void add_animation(const SkinnedModel& source, Builder& builder, tinygltf::Model
     const std::vector<double>& rest = model.nodes[i].translation;
     if (moves(joint, {static_cast<float>(rest[0]), static_cast<float>(rest[1]), static_cast<float>(rest[2])}))
       add(i, "translation", builder.floats(flat(joint.at), TINYGLTF_TYPE_VEC3));
-    if (!turns(joint)) continue;
-    std::vector<float> rotations;
-    rotations.reserve(4 * joint.turn_rad.size());
-    for (const float turn : joint.turn_rad) {
-      const double half = 0.5 * static_cast<double>(turn);
-      const Vec3 part = source.axis * static_cast<float>(std::sin(half));
-      rotations.insert(rotations.end(), {part.x, part.y, part.z, static_cast<float>(std::cos(half))});
-    }
-    add(i, "rotation", builder.floats(rotations, TINYGLTF_TYPE_VEC4));
+    const std::vector<float> turns = rotations(joint, source.axis);
+    if (!turns.empty()) add(i, "rotation", builder.floats(turns, TINYGLTF_TYPE_VEC4));
   }
   if (!animation.channels.empty()) model.animations.push_back(animation);
 }

@@ -11,6 +11,7 @@ extern "C" {
 #include "app/author/mesh_file.h"
 #include "app/author/triangle_mesh.h"
 #include "app/codecs/gltf_file.h"
+#include "app/codecs/joint_file.h"
 #include "app/codecs/libav_video.h"
 #include "platform/codecs.h"
 #include "platform/sim/decoded_files.h"
@@ -42,6 +43,11 @@ extern "C" __attribute__((visibility("default"))) void neontetra_read_mesh(const
 extern "C" __attribute__((visibility("default"))) void neontetra_read_triangles(const std::string& path,
                                                                                 nt::TriangleMesh& mesh) {
   mesh = nt::read_triangles_file(path);
+}
+
+extern "C" __attribute__((visibility("default"))) void neontetra_read_joints(const std::string& path,
+                                                                             nt::SkeletonSpec& skeleton) {
+  skeleton = nt::read_joint_file(path);
 }
 
 extern "C" __attribute__((visibility("default"))) void neontetra_write_glb(const nt::SkinnedModel& model,

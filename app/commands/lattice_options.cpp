@@ -40,7 +40,7 @@ void add_lattice_options(CLI::App& command, LatticeRequest& request) {
                    "--vertices then are the lattice's (default 450)");
   command
       .add_option("--skeleton", request.skeleton,
-                  "its joints, as text (docs/FORMATS.md), or auto: curves along its limbs; "
+                  "its joints: text (docs/FORMATS.md), a glTF skin, a BVH, or auto: curves along its limbs; "
                   "default: a swimmer's midline")
       ->type_name("FILE|auto");
   command

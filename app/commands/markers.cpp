@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -18,6 +19,7 @@
 #include "app/mocap/drag.h"
 #include "app/mocap/marker_choice.h"
 #include "app/mocap/marker_puppet.h"
+#include "app/mocap/mesh_recording.h"
 #include "app/mocap/mesh_view.h"
 #include "app/progress.h"
 #include "app/session.h"
@@ -33,7 +35,8 @@ namespace {
 constexpr int kWidth = 640, kHeight = 640;
 
 struct Options {
-  std::string file, mesh, skeleton, character, out, csv;
+  std::string file, mesh, skeleton, character;
+  std::vector<std::string> out;
   MarkerChoice choice;
   int vertices = 600, iterations = 10;
   int64_t frames = -1;
@@ -51,6 +54,7 @@ struct Summary {
   double rrms = 0.0, marker_error = 0.0, solve_us = 0.0, bone_error = 0.0, volume = 0.0;
   int worst_inverted = 0;
   int64_t frames_with_inverted = 0;
+  std::optional<MeshRecordingReport> glb;
 };
 
 class Player {
@@ -59,8 +63,7 @@ class Player {
       : options_(options), first_(options.choice.frame), file_(file), puppet_(&puppet), diagonal_(puppet.diagonal()) {
     const int64_t left = static_cast<int64_t>(file.frames()) - first_;
     end_ = first_ + (options.frames < 0 ? left : std::min(left, options.frames));
-    if (!options.out.empty()) video_ = std::make_unique<VideoWriter>(options.out, kWidth, kHeight, file.rate_hz);
-    if (!options.csv.empty()) open_csv();
+    for (const std::string& path : options.out) open(path);
   }
   Summary play() {
     Progress progress(end_ - first_);
@@ -72,10 +75,12 @@ class Player {
         video_->add({picture.data, picture.total() * 3});
       }
       if (csv_ != nullptr) write_row(f);
+      if (glb_ != nullptr) glb_->add(*puppet_);
       progress.show(f - first_ + 1);
     }
     if (video_ != nullptr) video_->finish();
     if (csv_ != nullptr) csv_->close();
+    if (glb_ != nullptr) sum_.glb = glb_->write(glb_path_);
     return sum_;
   }
   const MarkerPuppet& puppet() const { return *puppet_; }
@@ -119,8 +124,28 @@ class Player {
       if (step > sum_.largest_step) sum_.largest_step = step, sum_.largest_step_frame = f;
     }
   }
-  void open_csv() {
-    csv_ = std::make_unique<TextFile>(options_.csv);
+  // By the name's ending; one of each kind.
+  void open(const std::string& path) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    const auto once = [&](const auto& writer) {
+      if (writer != nullptr)
+        throw UserError("markers: two --out of the same kind; one film, one GLB and one CSV at most", 2);
+    };
+    if (ending == ".glb") {
+      once(glb_);
+      glb_path_ = path;
+      glb_ = std::make_unique<MeshRecording>(*puppet_, std::filesystem::path(path).stem().string(), file_.rate_hz,
+                                             !options_.character.empty());
+    } else if (ending == ".csv") {
+      once(csv_);
+      open_csv(path);
+    } else {
+      once(video_);
+      video_ = std::make_unique<VideoWriter>(path, kWidth, kHeight, file_.rate_hz);
+    }
+  }
+  void open_csv(const std::string& path) {
+    csv_ = std::make_unique<TextFile>(path);
     std::string head = "frame,time";
     for (std::size_t v = 0; v < puppet_->lattice().vertices().size(); ++v) {
       for (const char* axis : {"_x", "_y", "_z"}) head += ",v" + std::to_string(v) + axis;
@@ -147,6 +172,8 @@ class Player {
   double volume_ = 1.0;
   std::unique_ptr<VideoWriter> video_;
   std::unique_ptr<TextFile> csv_;
+  std::unique_ptr<MeshRecording> glb_;
+  std::string glb_path_;
   std::vector<float> last_;
   Summary sum_;
 };
@@ -202,6 +229,12 @@ Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
   json["frames_with_inverted"] = s.frames_with_inverted;
   json["marker_error_mean"] = s.marker_error / n;
   json["frame_us_mean"] = s.solve_us / n;
+  if (s.glb) {
+    json["glb"] = {{"joints", s.glb->joints},
+                   {"keys", s.glb->keys},
+                   {"error_rms", s.glb->error_rms},
+                   {"error_most", s.glb->error_most}};
+  }
   return json;
 }
 
@@ -265,7 +298,7 @@ void markers(const Options& options) {
     return drag(options);
   }
   if (options.file.empty()) throw UserError("markers: which recording? Or --drag to pull by hand", 2);
-  check_outputs({options.file, options.mesh, options.skeleton, options.character}, {options.out, options.csv});
+  check_outputs({options.file, options.mesh, options.skeleton, options.character}, options.out);
   const MarkerFile file = read_recording(options.file, options.choice);
   for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
   std::optional<LoadedCharacter> character;
@@ -290,7 +323,7 @@ void add_markers(CLI::App& app, Action& action) {
       ->type_name("FILE.ntchar");
   command
       ->add_option("--skeleton", options->skeleton,
-                   "its joints, as text (docs/FORMATS.md), or auto: curves along its limbs")
+                   "its joints: text (docs/FORMATS.md), a glTF skin, a BVH, or auto: curves along its limbs")
       ->type_name("FILE|auto");
   add_marker_choice(*command, options->choice);
   command->add_option("--frames", options->frames, "so many, from --frame on (default all)")->type_name("N");
@@ -307,11 +340,15 @@ void add_markers(CLI::App& app, Action& action) {
       ->type_name("KIND")
       ->check(CLI::IsMember({"linear", "phong", "green"}));
   command->add_flag("--stacked", options->stacked, "the paper's stacked equations in place of the ARAP energy");
-  command->add_option("--out", options->out, "a film of it")->type_name("VIDEO");
-  command->add_option("--csv", options->csv, "the lattice's vertices, a row a frame")->type_name("FILE");
+  command
+      ->add_option("--out", options->out,
+                   "by its ending a film, an animated mesh (.glb) or the lattice's vertices, a row a frame (.csv); may "
+                   "be repeated")
+      ->type_name("FILE")
+      ->take_all();
   command->add_flag("--json", options->json, "what was measured, as JSON");
   add_display_options(*command, options->display, false);
-  command->footer("Example: neontetra markers walk.c3d --mesh human.obj --out walk.mp4");
+  command->footer("Example: neontetra markers walk.c3d --mesh human.obj --out walk.mp4 --out walk.glb");
   command->callback([&action, options] { action = [options] { markers(*options); }; });
 }
 

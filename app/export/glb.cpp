@@ -6,13 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/export/output_file.h"
 #include "app/export/png.h"
 #include "app/export/pose_csv.h"
 #include "app/export/skinned_model.h"
 #include "app/progress.h"
 #include "core/base/det_math.h"
-#include "platform/camera.h"
 
 namespace nt {
 namespace {
@@ -67,10 +65,7 @@ class Maker {
     sample_frames();
     fit();
     keys();
-    const std::vector<uint8_t> bytes = glb_bytes(model_);
-    OutputFile file(path);
-    const bool complete = file.write_at(0, bytes);
-    if (!file.close() || !complete) throw UserError(file.error_line() + "; the file is cut");
+    write_model(path, model_);
     const bool lattice = Actor(wardrobe_, 0).retarget().lattice() != nullptr;
     return {model_.vertices.size(),      model_.joints.size(),  model_.times_s.size(),  model_.note,
             lattice ? "lattice" : "mls", errors_.quantile(0.5), errors_.quantile(0.99), errors_.most()};
@@ -106,7 +101,7 @@ class Maker {
     model_.triangles.assign(character_.triangles.begin(), character_.triangles.end());
     model_.png = png_bytes(character_.texture, model_.name);
     for (const RigJoint& joint : rig_.joints())
-      model_.joints.push_back({joint.name, joint.parent, to_file(joint.rest, 0), {}, {}});
+      model_.joints.push_back({joint.name, joint.parent, to_file(joint.rest, 0), {}, {}, {}});
   }
 
   void add_key(const RigPose& pose) {

@@ -48,6 +48,8 @@ class MarkerPuppet {
   const std::vector<Vec3>& targets() const { return targets_; }          // this frame's markers, on the mesh
   const LatticeView& view() const { return view_; }
   const Lattice& lattice() const { return *lattice_; }
+  const EmbeddingView& embedding() const { return embedding_; }
+  std::span<const uint32_t> slots() const { return slots_; }  // of each mesh vertex, its slot in the embedding
   const Registration& registration() const { return registration_; }
   bool bound_by_name() const { return by_name_; }
   std::size_t mesh_vertices() const { return slots_.size(); }

@@ -54,6 +54,15 @@ float angle_of_open(float open, float side) { return side > 0 ? open - det::kHal
 bool is_left(int index) { return index % 2 == 0; }
 float fish_side(int index) { return is_left(index) ? -1.0f : 1.0f; }
 
+// Moving least squares in its place would be another deformer than the one asked for.
+const Status kLatticeRefused{
+    StatusCode::bad_data,
+    "the character's lattice cannot be solved; make it anew with `neontetra character --lattice`"};
+
+bool refused(const Arena& arena, const LatticePose* pose) {
+  return pose == nullptr && !arena.measuring() && !arena.full();
+}
+
 }  // namespace
 
 BoneLengths bone_lengths(const Character& character) {
@@ -151,6 +160,7 @@ Result<Retarget*> Retarget::create(Arena& arena, const Character& character, con
           "the character has no lattice for its control points; make one with `neontetra character --lattice`"};
     }
     r.lattice_ = LatticePose::create(arena, character);
+    if (refused(arena, r.lattice_)) return kLatticeRefused;
   }
   r.meter_ = DistortionMeter::create(arena, character);
   r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
@@ -169,7 +179,10 @@ Result<Retarget*> Retarget::twin(Arena& arena, const Retarget& of) {
   const std::span<Retarget> self = arena.take<Retarget>(1);
   r.vertices_ = arena.take<Vec2>(of.vertices_.size());
   r.solid_.twin(arena, of.solid_);
-  if (r.settings_.deformer == Deformer::lattice) r.lattice_ = LatticePose::create(arena, r.character_);
+  if (r.settings_.deformer == Deformer::lattice) {
+    r.lattice_ = LatticePose::create(arena, r.character_);
+    if (refused(arena, r.lattice_)) return kLatticeRefused;
+  }
   r.filter_ = {};
   r.filter_.create(arena, 2 * r.control_count_ + 3, scaled(KalmanParameters{}, r.lengths_.body_len));
   if (arena.measuring()) return Result<Retarget*>(static_cast<Retarget*>(nullptr));

@@ -82,6 +82,7 @@ Matrix4x matrices(const Quat4& q) {
 }
 
 bool newton_rotations(const Matrix4x& s, int steps, Quat4& q) {
+  constexpr float kShort = 1e-5f;  // of omega^2: what a further step would do is less than a float's last digit
   bool doubtful = false;
   for (int i = 0; i < steps; ++i) {
     const Step step = newton_step(product(matrices(q), s));
@@ -90,15 +91,17 @@ bool newton_rotations(const Matrix4x& s, int steps, Quat4& q) {
     turn(step, turned);
     // Written so that NaN counts as doubtful.
     const float most = i + 1 == steps ? 0.01f : 1.0f;
-    bool safe = true;
+    bool safe = true, done = true;
     for (int lane = 0; lane < 4; ++lane) {
       safe = safe & (step.bxx[lane] > 0.0f) & (step.minor[lane] > 0.0f) & (step.det[lane] > 0.0f) & (size[lane] < most);
+      done = done & (size[lane] < kShort);
     }
     if (!safe) {
       doubtful = true;
       break;
     }
     q = turned;
+    if (done) break;
   }
   return doubtful;
 }

@@ -5,7 +5,7 @@
 // Output: R that maximises tr(R S), that is, minimises sum w |e' - R e|^2.
 // Newton on SO(3): with K = R S, a turn by omega changes tr(R S) by g . omega - 1/2 omega^T B omega, where
 // g = (K_yz - K_zy, K_zx - K_xz, K_xy - K_yx) and B = tr(K) I - sym(K); omega = B^-1 g. Two steps from the last frame's
-// rotation are exact to float where the turn since then is below about 60 degrees. Where B is not positive or the last
+// rotation are exact to float where the turn since then is below about 60 degrees, and one where it is below 0.2: the error is of the third order. Where B is not positive or the last
 // step was still long, the closed form takes over: Horn's 4x4 quaternion matrix ("Closed-form solution of absolute
 // orientation using unit quaternions", 1987), by Jacobi's method, which also never gives a reflection.
 // Differs from [L], which takes an SVD of every S: 20 us in place of 450 for 1,000 vertices.

@@ -27,15 +27,6 @@
 namespace nt::test {
 namespace {
 
-template <class F>
-double time_us(F f) {
-  const int64_t before_ns = steady_now_ns();
-  f();
-  return static_cast<double>(steady_now_ns() - before_ns) * 1e-3;
-}
-
-double median(const std::vector<double>& v) { return median_us(v); }
-
 void bench_solver(const LatticeData& data) {
   constexpr int kRounds = 40, kIterations = 10;
   LatticeSettings plain_settings;
@@ -57,9 +48,10 @@ void bench_solver(const LatticeData& data) {
     seen[static_cast<std::size_t>(round) % seen.size()] = 0;
     factor_us.push_back(time_us([&] { factored->step(markers, seen); }));
   }
-  const double ours = median(plain_us), theirs = median(eigen_us);
+  const double ours = median_us(plain_us), theirs = median_us(eigen_us);
   std::printf("%5zu %6zu %8zu %9.1f %9.1f %9.1f %10.0f %12.0f\n", data.vertices.size(), data.tetrahedra.size() / 4,
-              Lattice::bytes_needed(plain.view()), ours, theirs, theirs / ours, median(factor_us), median(mixed_us));
+              Lattice::bytes_needed(plain.view()), ours, theirs, theirs / ours, median_us(factor_us),
+              median_us(mixed_us));
 }
 
 // Detail vertices spread evenly over the tetrahedra.
@@ -95,9 +87,9 @@ void bench_embedding(const LatticeData& data) {
     linear_us.push_back(time_us([&] { embed_linear(embedding, data.view(), moved, out); }));
     phong_us.push_back(time_us([&] { phong->embed(moved, out); }));
   }
-  const double copy = median(copy_us);
-  std::printf("%5zu %9zu %9.0f %9.0f %7.1f %9.0f %7.1f\n", data.vertices.size(), kVertices, copy, median(linear_us),
-              median(linear_us) / copy, median(phong_us), median(phong_us) / copy);
+  const double copy = median_us(copy_us);
+  std::printf("%5zu %9zu %9.0f %9.0f %7.1f %9.0f %7.1f\n", data.vertices.size(), kVertices, copy, median_us(linear_us),
+              median_us(linear_us) / copy, median_us(phong_us), median_us(phong_us) / copy);
 }
 
 // A mesh of the shared data as it is, every edge cut in half until it has so many vertices, with a lattice.
@@ -166,8 +158,8 @@ void bench_against_eigen(const Character& c, const MarkerFile& file, const Marke
     our_us.push_back(time_us([&] { (void)ours->step(laid.frames[f], seen); }) / settings.max_iterations);
     eigen_us.push_back(time_us([&] { oracle.iterate(laid.frames[f]); }));
   }
-  std::printf("%10zu %9.1f %9.1f %9.1f\n", view.vertices.size(), median(our_us), median(eigen_us),
-              median(eigen_us) / median(our_us));
+  std::printf("%10zu %9.1f %9.1f %9.1f\n", view.vertices.size(), median_us(our_us), median_us(eigen_us),
+              median_us(eigen_us) / median_us(our_us));
 }
 
 // Ten accelerated iterations a frame against fifty plain ones: how far each is from the converged pose.

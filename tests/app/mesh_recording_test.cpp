@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// `neontetra markers --out FILE.glb`, read back by Assimp, which knows nothing of us: its skin puts the vertices where the
+// report says, and what it says is near; and skeletons from files with joints.
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/author/skeleton_file.h"
+#include "core/base/random.h"
+#include "platform/camera.h"
+#include "tests/app/mesh_text.h"
+#include "tests/app/run_binary.h"
+
+namespace nt {
+namespace {
+
+constexpr int kFrames = 12;
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return std::string((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+}
+
+class MeshRecordingCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(mesh_) << fish_obj().text;
+    std::ofstream csv(recording_);
+    csv << "nose_x,nose_y,nose_z,side_x,side_y,side_z,back_x,back_y,back_z,rear_x,rear_y,rear_z\n";
+    const double place[4][3] = {{0.95, 0, 0}, {0.3, 0, 0.2}, {0.3, 0.25, 0}, {-0.6, 0, 0}};
+    for (int f = 0; f < kFrames; ++f) {
+      for (int m = 0; m < 4; ++m) {
+        const double sway = f * 0.02 * place[m][0] * place[m][0];
+        csv << (m ? "," : "") << place[m][0] << "," << place[m][1] << "," << place[m][2] + sway;
+      }
+      csv << "\n";
+    }
+  }
+  TempDir dir_;
+  const std::string mesh_ = dir_ / "fish.obj", recording_ = dir_ / "swim.csv", glb_ = dir_ / "swim.glb",
+                    table_ = dir_ / "swim-lattice.csv";
+};
+
+// The vertices as bones and keys of one frame put them.
+std::vector<aiVector3D> skinned(const aiScene& scene, unsigned frame) {
+  std::map<std::string, aiMatrix4x4> place;
+  for (unsigned c = 0; c < scene.mAnimations[0]->mNumChannels; ++c) {
+    const aiNodeAnim& keys = *scene.mAnimations[0]->mChannels[c];
+    const auto turn = keys.mRotationKeys[keys.mNumRotationKeys > 1 ? frame : 0].mValue;
+    const auto at = keys.mPositionKeys[keys.mNumPositionKeys > 1 ? frame : 0].mValue;
+    place[keys.mNodeName.C_Str()] = aiMatrix4x4({1, 1, 1}, turn, at);
+  }
+  const aiMesh& mesh = *scene.mMeshes[0];
+  std::vector<aiVector3D> out(mesh.mNumVertices);
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+    const aiBone& bone = *mesh.mBones[b];
+    const aiMatrix4x4 moved = place.at(bone.mName.C_Str()) * bone.mOffsetMatrix;
+    for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+      const unsigned v = bone.mWeights[w].mVertexId;
+      out[v] += bone.mWeights[w].mWeight * (moved * mesh.mVertices[v]);
+    }
+  }
+  return out;
+}
+
+TEST_F(MeshRecordingCommand, AnotherReaderSeesTheSameMotion) {
+  const Outcome run = neontetra("markers " + recording_ + " --mesh " + mesh_ + " --axes x,y,z --vertices 300 --out " +
+                                glb_ + " --out " + table_ + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["glb"]["keys"], kFrames);
+  EXPECT_EQ(json["glb"]["joints"], 1 + json["lattice"]["vertices"].get<int>());
+  EXPECT_LT(json["glb"]["error_most"].get<double>(), 0.01);
+  EXPECT_GT(json["glb"]["error_most"].get<double>(), 0.0);
+  const std::string table = text_of(table_);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), kFrames + 1);
+
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(glb_, aiProcess_ValidateDataStructure);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumAnimations, 1u);
+  const std::vector<aiVector3D> first = skinned(*scene, 0), last = skinned(*scene, kFrames - 1);
+  ASSERT_EQ(first.size(), json["lattice"]["mesh_vertices"].get<std::size_t>());
+  // Nose and tail sway aside by the square of their place, as the markers do.
+  const auto moved = [&](auto better) {
+    const auto at = std::max_element(first.begin(), first.end(), [&](auto& a, auto& b) { return better(b.x, a.x); });
+    return last[static_cast<std::size_t>(at - first.begin())].z - at->z;
+  };
+  const float most = (kFrames - 1) * 0.02f;
+  EXPECT_NEAR(moved([](float a, float b) { return a > b; }), most, 0.15f * most);
+  EXPECT_LT(moved([](float a, float b) { return std::abs(a - 0.3f) < std::abs(b - 0.3f); }), 0.5f * most);
+
+  // The same file as a skeleton: as many joints as the lattice has vertices that move a vertex of the mesh.
+  const SkeletonSpec skeleton = read_skeleton(glb_);
+  EXPECT_GT(skeleton.joints.size(), 100u);
+  EXPECT_LE(skeleton.joints.size(), 1u + json["lattice"]["vertices"].get<std::size_t>());
+}
+
+TEST_F(MeshRecordingCommand, TwoOfAKindAreRefused) {
+  const Outcome run =
+      neontetra("markers " + recording_ + " --mesh " + mesh_ + " --out " + glb_ + " --out " + (dir_ / "b.glb"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.error_lines(), 1) << run.err;
+  EXPECT_NE(run.err.find("same kind"), std::string::npos) << run.err;
+}
+
+const char* const kBvh =
+    "HIERARCHY\nROOT hips\n{\n  OFFSET 1 2 3\n  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+    "Yrotation\n"
+    "  JOINT knee\n  {\n    OFFSET 0 -4 0\n    CHANNELS 3 Zrotation Xrotation Yrotation\n"
+    "    End Site\n    {\n      OFFSET 0 -3 1\n    }\n  }\n}\n"
+    "MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0\n";
+
+TEST(SkeletonFile, ABvhGivesItsJointsByItsOffsets) {
+  const TempDir dir;
+  const std::string path = dir / "leg.bvh";
+  std::ofstream(path) << kBvh;
+  const SkeletonSpec skeleton = read_skeleton(path);
+  ASSERT_EQ(skeleton.joints.size(), 3u);
+  EXPECT_EQ(skeleton.joints[0].name, "hips");
+  EXPECT_EQ(skeleton.joints[0].parent, -1);
+  EXPECT_EQ(skeleton.joints[1].parent, 0);
+  EXPECT_EQ(skeleton.joints[2].parent, 1);
+  EXPECT_LT(length(skeleton.joints[1].position - Vec3{1, -2, 3}), 1e-5f);
+  EXPECT_LT(length(skeleton.joints[2].position - Vec3{1, -5, 4}), 1e-5f);
+}
+
+// Bytes changed and cut at random: joints or one line.
+TEST(SkeletonFile, DamagedFilesAreReadOrRefusedWithOneLine) {
+  const TempDir dir;
+  const std::string path = dir / "leg.bvh", good = kBvh;
+  Random random(5);
+  int refused = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::string text = good.substr(0, round % 2 ? good.size() : random.below(static_cast<uint32_t>(good.size())));
+    for (int k = 0; k < 4 && round % 4 != 0 && !text.empty(); ++k) {
+      text[random.below(static_cast<uint32_t>(text.size()))] = static_cast<char>(random.below(256));
+    }
+    std::ofstream(path, std::ios::binary) << text;
+    try {
+      const SkeletonSpec skeleton = read_skeleton(path);
+      EXPECT_GE(skeleton.joints.size(), 2u);
+    } catch (const UserError& error) {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(refused, 50);
+  EXPECT_THROW(read_skeleton(dir / "none.bvh"), UserError);
+}
+
+}  // namespace
+}  // namespace nt

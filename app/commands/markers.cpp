@@ -57,6 +57,21 @@ struct Summary {
   std::optional<MeshRecordingReport> glb;
 };
 
+enum class Output { film, glb, csv };
+
+Output kind_of(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".glb" ? Output::glb : ending == ".csv" ? Output::csv : Output::film;
+}
+
+void check_kinds(const std::vector<std::string>& paths) {
+  for (auto a = paths.begin(); a != paths.end(); ++a) {
+    if (std::any_of(paths.begin(), a, [&](const std::string& b) { return kind_of(*a) == kind_of(b); })) {
+      throw UserError("markers: two --out of the same kind; one film, one GLB and one CSV at most", 2);
+    }
+  }
+}
+
 class Player {
  public:
   Player(const Options& options, MarkerPuppet& puppet, const MarkerFile& file)
@@ -124,24 +139,19 @@ class Player {
       if (step > sum_.largest_step) sum_.largest_step = step, sum_.largest_step_frame = f;
     }
   }
-  // By the name's ending; one of each kind.
   void open(const std::string& path) {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    const auto once = [&](const auto& writer) {
-      if (writer != nullptr)
-        throw UserError("markers: two --out of the same kind; one film, one GLB and one CSV at most", 2);
-    };
-    if (ending == ".glb") {
-      once(glb_);
-      glb_path_ = path;
-      glb_ = std::make_unique<MeshRecording>(*puppet_, std::filesystem::path(path).stem().string(), file_.rate_hz,
-                                             !options_.character.empty());
-    } else if (ending == ".csv") {
-      once(csv_);
-      open_csv(path);
-    } else {
-      once(video_);
-      video_ = std::make_unique<VideoWriter>(path, kWidth, kHeight, file_.rate_hz);
+    switch (kind_of(path)) {
+      case Output::glb:
+        glb_path_ = path;
+        glb_ = std::make_unique<MeshRecording>(*puppet_, std::filesystem::path(path).stem().string(), file_.rate_hz,
+                                               !options_.character.empty());
+        break;
+      case Output::csv:
+        open_csv(path);
+        break;
+      case Output::film:
+        video_ = std::make_unique<VideoWriter>(path, kWidth, kHeight, file_.rate_hz);
+        break;
     }
   }
   void open_csv(const std::string& path) {
@@ -299,6 +309,7 @@ void markers(const Options& options) {
   }
   if (options.file.empty()) throw UserError("markers: which recording? Or --drag to pull by hand", 2);
   check_outputs({options.file, options.mesh, options.skeleton, options.character}, options.out);
+  check_kinds(options.out);
   const MarkerFile file = read_recording(options.file, options.choice);
   for (const std::string& note : file.notes) std::fprintf(stderr, "neontetra: %s\n", note.c_str());
   std::optional<LoadedCharacter> character;

@@ -11,7 +11,7 @@
 // where Delta_i = sum_j w_ij / 2 (R_i + R_j) e_ij.
 // Differs from [L]: (1) the ARAP form is the default, because L^T L costs a factor of 3 in size and float its digits; (2)
 // it solves for the change of V', so float errors are those of a small number, and a pose far from the origin loses
-// nothing; (3) the iteration is mixed (core/deform/anderson.h) and starts from an extrapolated pose: the
+// nothing; (3) the iteration is mixed (core/deform/anderson.h), which needs the gradient too, and starts from an extrapolated pose: the
 // markers' change since the last frame is known, so it is fitted by their two changes before, and the pose's two changes
 // are mixed alike. That follows a sway, and cannot double noise; (4) bone lengths are made exact at the end and what this moves is spread over the neighbours; (5) markers come and go, see below.
 // A marker that is lost drops out: over blend_frames its weight sinks to 0 while its target is where it is, so nothing snaps.

@@ -62,7 +62,8 @@ std::vector<aiVector3D> skinned(const aiScene& scene, unsigned frame) {
   std::vector<aiVector3D> out(mesh.mNumVertices);
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
     const aiBone& bone = *mesh.mBones[b];
-    const aiMatrix4x4 moved = place.at(bone.mName.C_Str()) * bone.mOffsetMatrix;
+    const auto keyed = place.find(bone.mName.C_Str());
+    const aiMatrix4x4 moved = keyed == place.end() ? aiMatrix4x4() : keyed->second * bone.mOffsetMatrix;
     for (unsigned w = 0; w < bone.mNumWeights; ++w) {
       const unsigned v = bone.mWeights[w].mVertexId;
       out[v] += bone.mWeights[w].mWeight * (moved * mesh.mVertices[v]);

@@ -240,7 +240,7 @@ void bench_table(const std::string& shared, const std::string& assets) {
       "farther\n");
   for (const auto& c : cases) {
     std::printf("%-12s", c->name.c_str());
-    bench_acceleration(c->actor.character(), c->file, c->choice, 600);
+    bench_acceleration(c->actor.character(), c->file, c->choice, -1);
   }
 }
 

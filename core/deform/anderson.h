@@ -7,7 +7,7 @@
 // last m steps dX and what they changed, dB and dF, gamma solves dX^T (b - dB gamma) = 0, and x <- x + f - (dX + dF) gamma.
 // On a quadratic energy that is the conjugate gradient method, preconditioned by A. The usual type II, which makes
 // |f - dF gamma| least, is blind to what moves slowly: there f is a small part of what is still to go, and the whole error of a
-// body is of that kind (measured: half the distance from the converged pose, docs/PERFORMANCE.md).
+// body is of that kind (measured: twice the distance from the converged pose, docs/PERFORMANCE.md).
 // The small problem is solved by Cholesky in double, with a ridge of 1e-7 of each diagonal entry.
 // Between two poses of least energy it is not positive, or asks for a step into the blue: then the last step is taken
 // once more on top of f, which speeds up steadily where plain iterations crawl. So is a step of over kReach times the
@@ -27,7 +27,7 @@ class Anderson {
  public:
   static constexpr int kWindow = 5;
   static constexpr double kReach = 2.0;
-  static constexpr double kGrowth = 3.0;
+  static constexpr double kGrowth = 1.5;
 
   void create(Arena& arena, std::size_t size);
   // Forgets the history: another problem from here on.

@@ -21,18 +21,20 @@ HWY_INLINE V abs_diff(V a, V b) {
   return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
 }
 
-// Calls f(x, pointer) for every 64-pixel segment of a row, where pointer has 64 readable bytes. The last, partial segment
-// of a row that is not padded is copied to `tail` first and filled with its last pixel.
+// The 64 readable bytes of a row's segment at `x`. The last, partial segment of a row that is not padded is copied to `tail`
+// first and filled with the row's last pixel.
+inline const uint8_t* segment_at(const uint8_t* row, int x, int width, uint8_t* tail) {
+  if (x + 64 <= width) return row + x;
+  const int n = width - x;
+  std::memcpy(tail, row + x, static_cast<std::size_t>(n));
+  std::memset(tail + n, row[width - 1], static_cast<std::size_t>(64 - n));
+  return tail;
+}
+
+// Calls f(x, pointer) for every 64-pixel segment of a row, where pointer has 64 readable bytes.
 template <class F>
 HWY_INLINE void for_segments(const uint8_t* row, int width, uint8_t* tail, F&& f) {
-  int x = 0;
-  for (; x + 64 <= width; x += 64) f(x, row + x);
-  if (x < width) {
-    const int n = width - x;
-    std::memcpy(tail, row + x, static_cast<std::size_t>(n));
-    std::memset(tail + n, row[width - 1], static_cast<std::size_t>(64 - n));
-    f(x, static_cast<const uint8_t*>(tail));
-  }
+  for (int x = 0; x < width; x += 64) f(x, segment_at(row, x, width, tail));
 }
 
 // The bits of the word at `x` that lie inside the row.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/segment/vibe.h"
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <cstring>
 
@@ -13,32 +15,45 @@ namespace {
 
 constexpr std::size_t kTable = 16384;  // random bytes beyond one row's length, so that rows start at different places
 
-// Bits of the pixels with fewer than kMinMatches samples within `radius`. Nearly every background pixel matches the first
-// two planes, so those are tried first; only lane groups that are left read on, until every lane has its matches.
-uint64_t classify_segment(const uint8_t* luma, const uint8_t* samples, std::ptrdiff_t plane_stride, int radius) {
+// True when all 64 pixels match the samples of the first two planes: nearly every segment of ground does.
+HWY_INLINE bool all_match_two(const uint8_t* luma, const uint8_t* first, const uint8_t* second, int radius) {
+  static_assert(Vibe::kMinMatches == 2);
   const ByteLanes d;
   const auto limit = hn::Set(d, static_cast<uint8_t>(radius));
-  // 255 where |luma - sample| <= radius: a true comparison is -1, so subtracting it counts.
-  const auto match = [&](auto v, int k, std::size_t i) {
-    const auto diff = abs_diff(v, hn::LoadU(d, samples + k * plane_stride + i));
-    return hn::VecFromMask(d, hn::Eq(hn::Min(diff, limit), diff));
-  };
+  auto beyond = hn::Zero(d);
+  for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
+    const auto v = hn::LoadU(d, luma + i), a = hn::LoadU(d, first + i), b = hn::LoadU(d, second + i);
+    beyond = hn::Or(beyond, hn::SaturatedSub(hn::Max(abs_diff(v, a), abs_diff(v, b)), limit));
+  }
+  return hn::AllTrue(d, hn::Eq(beyond, hn::Zero(d)));
+}
+
+// Bits of the pixels with fewer than kMinMatches samples within `radius`. Lane groups read on until every lane has its
+// matches.
+uint64_t classify_planes(const uint8_t* luma, const uint8_t* samples, std::ptrdiff_t plane_stride, int radius) {
+  const ByteLanes d;
+  const auto limit = hn::Set(d, static_cast<uint8_t>(radius));
+  const auto needed = hn::Set(d, static_cast<uint8_t>(Vibe::kMinMatches));
   uint64_t word = 0;
   for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto v = hn::LoadU(d, luma + i);
-    const auto first = match(v, 0, i), second = match(v, 1, i);
-    const auto all = hn::Set(d, uint8_t{255});
-    if (HWY_LIKELY(hn::AllTrue(d, hn::Eq(hn::And(first, second), all)))) continue;
-    const auto needed = hn::Set(d, static_cast<uint8_t>(Vibe::kMinMatches));
-    auto matches = hn::Sub(hn::Sub(hn::Zero(d), first), second);
-    auto lacking = hn::Ne(hn::Min(matches, needed), needed);
-    for (int k = 2; k < Vibe::kSamples && !hn::AllFalse(d, lacking); ++k) {
-      matches = hn::Sub(matches, match(v, k, i));
+    auto matches = hn::Zero(d);
+    auto lacking = hn::Ne(matches, needed);
+    for (int k = 0; k < Vibe::kSamples && !hn::AllFalse(d, lacking); ++k) {
+      const auto diff = abs_diff(v, hn::LoadU(d, samples + k * plane_stride + i));
+      // A true comparison is -1, so subtracting it counts.
+      matches = hn::Sub(matches, hn::VecFromMask(d, hn::Eq(hn::Min(diff, limit), diff)));
       lacking = hn::Ne(hn::Min(matches, needed), needed);
     }
     store_bits(d, lacking, i, word);
   }
   return word;
+}
+
+HWY_INLINE uint64_t classify_segment(const uint8_t* luma, const uint8_t* samples, std::ptrdiff_t plane_stride,
+                                     int radius) {
+  if (HWY_LIKELY(all_match_two(luma, samples, samples + plane_stride, radius))) return 0;
+  return classify_planes(luma, samples, plane_stride, radius);
 }
 
 // to[i] = luma[i] where chosen[i] is 255 and bit i of `frozen` is clear.
@@ -74,7 +89,7 @@ Vibe* Vibe::create(Arena& arena, const BackgroundSettings& settings, int width, 
   vibe.chosen_ = chosen;
   vibe.guessed_ = {guessed.data(), width, height, words_for(width)};
   vibe.random_ = Random(seed);
-  for (uint8_t& c : chosen) c = vibe.random_.below(kSubsampling) == 0 ? 255 : 0;
+  for (uint8_t& c : chosen) c = vibe.random_.below(kSubsampling / kSegments) == 0 ? 255 : 0;
   return &vibe;
 }
 
@@ -158,23 +173,48 @@ void Vibe::follow_light(LumaView luma, const BitMask* keep) {
   scale_pixels(relight.kept, relight.rounding, *keep, {plane_.data(), width_, height_, stride_});
 }
 
-void Vibe::update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep, bool neighbours) {
-  uint8_t tail[64];
-  const uint8_t* own_choice = chosen_.data() + random_.below(kTable);
-  const uint8_t* neighbour_choice = chosen_.data() + random_.below(kTable);
-  uint64_t r = random_.next();
+// Calls f(x) for the first pixel of every segment whose bit is set; bits repeat after 64 segments.
+template <class F>
+HWY_INLINE void for_turns(uint64_t turns, int width, F&& f) {
+  for (int x0 = 0; x0 < width; x0 += 64 * 64) {
+    const int segments = (width - x0 + 63) >> 6;
+    uint64_t left = segments >= 64 ? turns : turns & ((uint64_t{1} << segments) - 1);
+    for (; left != 0; left &= left - 1) f(x0 + 64 * std::countr_zero(left));
+  }
+}
+
+// Asks for the memory that the row's refresh will touch: it is strewn over all planes, so nothing else foresees it.
+Vibe::Turn Vibe::draw_turn(int y, bool neighbours) {
+  static_assert(kSegments == 4);  // two random bits
+  Turn turn;
+  turn.own_choice = chosen_.data() + random_.below(kTable);
+  turn.neighbour_choice = chosen_.data() + random_.below(kTable);
+  turn.own_segments = random_.next() & random_.next();
+  turn.neighbour_segments = neighbours ? random_.next() & random_.next() : 0;
+  turn.shifts = random_.next();
   const int dy = static_cast<int>(random_.below(3)) - 1;
-  uint8_t* own = sample_row(static_cast<int>(random_.below(kSamples)), y);
+  turn.own = sample_row(static_cast<int>(random_.below(kSamples)), y);
   const int neighbours_plane = kMinMatches + static_cast<int>(random_.below(kSamples - kMinMatches));
-  uint8_t* other = sample_row(neighbours_plane, clamp_int(y + dy, 0, height_ - 1));
-  for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
-    const uint64_t frozen = foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
-    // Two random bits a segment: -1, 0, 0, +1, so that half of the neighbours lie straight above or below.
-    int dx = static_cast<int>((r >> (x >> 6 & 31) & 1)) - static_cast<int>((r >> (32 + (x >> 6 & 31)) & 1));
+  turn.other = sample_row(neighbours_plane, clamp_int(y + dy, 0, height_ - 1));
+  for_turns(turn.own_segments, width_, [&](int x) { hwy::Prefetch(turn.own + x); });
+  for_turns(turn.neighbour_segments, width_, [&](int x) { hwy::Prefetch(turn.other + x); });
+  return turn;
+}
+
+void Vibe::refresh_row(LumaView luma, int y, const Turn& turn, const uint64_t* foreground, const uint64_t* keep) {
+  const auto frozen = [&](int x) {
+    return foreground[x >> 6] | (keep != nullptr ? keep[x >> 6] : 0) | ~valid_bits(x, width_);
+  };
+  uint8_t tail[64];
+  const auto pixels = [&](int x) { return segment_at(luma.row(y), x, width_, tail); };
+  for_turns(turn.own_segments, width_,
+            [&](int x) { refresh_segment(pixels(x), turn.own_choice + x, frozen(x), turn.own + x); });
+  for_turns(turn.neighbour_segments, width_, [&](int x) {
+    // Two random bits: -1, 0, 0, +1, so that half of the neighbours lie straight above or below.
+    const int i = x >> 6 & 31;
+    int dx = static_cast<int>(turn.shifts >> i & 1) - static_cast<int>(turn.shifts >> (32 + i) & 1);
     if (x + dx < 0 || x + dx + 64 > stride_) dx = 0;
-    if (frozen == ~uint64_t{0}) return;
-    refresh_segment(at, own_choice + x, frozen, own + x);
-    if (neighbours) refresh_segment(at, neighbour_choice + x, frozen, other + x + dx);
+    refresh_segment(pixels(x), turn.neighbour_choice + x, frozen(x), turn.other + x + dx);
   });
 }
 
@@ -193,14 +233,18 @@ bool Vibe::apply(LumaView luma, const BitMask* keep, const BitMask& foreground) 
   const int match = radius();
   const int rounds = frames_ < kEagerFrames ? kEagerRounds : 1;
   const std::ptrdiff_t plane_stride = stride_ * height_;
+  Turn next = draw_turn(0, true);
   for (int y = 0; y < height_; ++y) {
+    const Turn turn = next;
+    if (y + 1 < height_) next = draw_turn(y + 1, true);
     uint64_t* words = foreground.row(y);
+    const uint64_t* kept = keep != nullptr ? keep->row(y) : nullptr;
     const uint8_t* samples = sample_row(0, y);
     for_segments(luma.row(y), width_, tail, [&](int x, const uint8_t* at) {
       words[x >> 6] = classify_segment(at, samples + x, plane_stride, match) & valid_bits(x, width_);
     });
-    for (int round = 0; round < rounds; ++round)
-      update_row(luma, y, words, keep != nullptr ? keep->row(y) : nullptr, round == 0);
+    refresh_row(luma, y, turn, words, kept);
+    for (int round = 1; round < rounds; ++round) refresh_row(luma, y, draw_turn(y, false), words, kept);
   }
   follow_background(luma, foreground, keep, follow_limits(frames_++, weak_threshold(noise_.sigma())),
                     {plane_.data(), width_, height_, stride_});

@@ -5,8 +5,8 @@
 // TIP 2011: N = 20 samples a pixel, #min = 2 matches within R, one in phi = 16 background pixels refreshes one of its own
 // samples and one of a random neighbour's.
 // Differs: the samples are 20 planes of rows, so that a background pixel touches two of them and not 20 bytes; the random
-// choice of the sample is made per row (so memory is walked in streams), of the neighbour per row and 64-pixel segment, of
-// the pixels per pixel from a seeded table. The first two planes hold only a pixel's own past values, never a neighbour's: they
+// choice of the sample is made per row (so memory is walked in streams), of the neighbour per row and 64-pixel segment; one
+// segment in four has its turn, and in it one pixel in four, from a seeded table. The first two planes hold only a pixel's own past values, never a neighbour's: they
 // nearly always match, so most pixels need no third plane. Otherwise every pixel's chances are those of the paper. R follows the noise (20 at an ordinary camera's).
 // Memory: 21 bytes a pixel and the table. Cost at 960x544: see docs/PERFORMANCE.md.
 #pragma once
@@ -25,6 +25,7 @@ class Vibe final : public Background {
   static constexpr int kSamples = 20;
   static constexpr int kMinMatches = 2;
   static constexpr int kSubsampling = 16;
+  static constexpr int kSegments = 4;  // one 64-pixel segment in this many has its turn in a frame
   // One frame says little of a surface that moves: at first each frame is learned as if it were several. Only by its own
   // pixel: learned from its neighbours as well, what is beside a thin tail would soon know the tail.
   static constexpr int kEagerFrames = 60, kEagerRounds = 4;
@@ -52,7 +53,14 @@ class Vibe final : public Background {
   void guess(const BitMask& unknown);
   void settle_guess(LumaView luma);
   void follow_light(LumaView luma, const BitMask* keep);
-  void update_row(LumaView luma, int y, const uint64_t* foreground, const uint64_t* keep, bool neighbours);
+  // What a row's refresh draws: where it writes, and a bit for each segment that has its turn.
+  struct Turn {
+    const uint8_t *own_choice, *neighbour_choice;
+    uint8_t *own, *other;
+    uint64_t own_segments, neighbour_segments, shifts;
+  };
+  Turn draw_turn(int y, bool neighbours);
+  void refresh_row(LumaView luma, int y, const Turn& turn, const uint64_t* foreground, const uint64_t* keep);
   uint8_t* sample_row(int k, int y) const {
     return samples_.data() + (static_cast<std::ptrdiff_t>(k) * height_ + y) * stride_;
   }
@@ -63,7 +71,7 @@ class Vibe final : public Background {
   std::ptrdiff_t stride_ = 0;
   std::span<uint8_t> samples_;  // kSamples planes
   std::span<uint8_t> plane_;    // sigma-delta estimate of the background
-  std::span<uint8_t> chosen_;   // random table: 255 with probability 1 / kSubsampling, else 0
+  std::span<uint8_t> chosen_;   // random table: 255 with probability kSegments / kSubsampling, else 0
   BitMask guessed_;             // hidden by a fish when the model was learned, as far as is known
   int guess_age_ = kGuessFrames;
   Random random_;

@@ -23,8 +23,7 @@ const Blob& blob_of(const Swimmer& s, std::span<const Blob> blobs) { return blob
 float Target::score(const Swimmer& s, const Blob& blob) const {
   const float travel = det::min(s.travelled, 1.0f);
   const float alike = id_ == 0 && looks_.area_px > 0 ? s.looks.unlike(looks_) / kAsUnlikeAs : 0.0f;
-  return det::sqrt(static_cast<float>(blob.area_px)) * fish_likeness(blob) * (1.0f + 4.0f * travel) /
-         (1.0f + alike * alike);
+  return det::sqrt(static_cast<float>(blob.area_px)) * s.likeness * (1.0f + 4.0f * travel) / (1.0f + alike * alike);
 }
 
 // One that should be followed in place of the target, or null.

@@ -40,6 +40,13 @@ float reach_of(const Swimmer& s) {
   return det::max(s.length_px(), length(size));
 }
 
+// Where the fish was, or so small beside it and so near that it may be its fin, whose root is still out of the frame.
+bool may_belong(const Blob& blob, const Swimmer& s) {
+  if (inside(s.last_box, blob.centroid, 0)) return true;
+  const bool small = static_cast<float>(blob.area_px) < kFishBeside * s.area_px();
+  return small && length(blob.centroid - s.centroid) < reach_of(s);
+}
+
 // What it weighs that a swimmer finds its blob.
 float worth(const Swimmer& s) {
   if (s.followed) return 1.0f;
@@ -101,7 +108,7 @@ void Swimmer::see(const Blob& of, float luma, bool alone) {
   box = of.box;
   move_to(of.centroid);
   likeness += (fish_likeness(of) - likeness) * 0.2f;
-  travelled = det::max(travelled, length(centroid - first) / length_of(of));
+  travelled = det::max(travelled, length(centroid - first) / det::max(length_of(of), looks.length_px));
   if (!alone) return;
   if (of.touches_edge) {
     looks.area_px = det::max(static_cast<float>(of.area_px), looks.area_px);
@@ -383,7 +390,7 @@ void Swimmers::welcome(std::span<const Blob> blobs) {
     if (largest_px_ > 0 && blob.area_px > largest_px_) continue;
     uint32_t whole = 0;
     for (const Swimmer& s : all())
-      if (s.blob >= 0 && !s.in_heap && s.frames > kKnownFrames && inside(s.last_box, blob.centroid, 0)) whole = s.id;
+      if (s.blob >= 0 && !s.in_heap && s.frames > kKnownFrames && may_belong(blob, s)) whole = s.id;
     if (Swimmer* born = begin(blob, i)) born->part_of = whole;
   }
 }

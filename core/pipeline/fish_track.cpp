@@ -19,9 +19,11 @@ constexpr float kTravelFrames = 5.0f;
 // What has been there for less, or is smaller, may be a part of this fish.
 constexpr int kKnownFrames = 10;
 constexpr float kFishBeside = 0.35f;
-constexpr float kNearlyClosed = 0.6f;  // of the axis, from head to tail
-constexpr float kCaudalFin = 0.2f;     // of the axis that is seen without it
-constexpr float kCutWidth = 1.5f;      // pixels, either side of the line that opens a ring
+constexpr float kNearlyClosed = 0.6f;                // of the axis, from head to tail
+constexpr float kCaudalFin = 0.19f;                  // of the axis that is seen without it
+constexpr float kWhole = 1.13f, kWholePart = 0.05f;  // of a fish's usual axis; how much of it a frame is
+constexpr float kGrowth = 1.08f, kBeside = 0.5f;     // of a fish that swims in, in a frame; of the axis, from the edge
+constexpr float kCutWidth = 1.5f;                    // pixels, either side of the line that opens a ring
 
 }  // namespace
 
@@ -185,11 +187,16 @@ bool FishTrack::measure_contour(int width, int height, const Similarity& frame_f
 }
 
 // The caudal fin of a fish that swims in is seen last, and where it may hide, not at all: whether it may still be outside.
+// So may the rest of a fish that grows from frame to frame beside the edge: light on the wall can hide where it is cut.
 bool FishTrack::tail_may_be_outside(const CaptureTools& tools) {
+  const bool grows = pose.axis_len > kGrowth * last_len_;
+  last_len_ = pose.axis_len;
   if (!entering_) return false;
   const float most_x = static_cast<float>(tools.frame.luma.width - 1),
               most_y = static_cast<float>(tools.frame.luma.height - 1);
-  const float room = fins_may_hide_ ? kCaudalFin * pose.axis_len : 0.0f;
+  float room = fins_may_hide_ ? (grows ? kBeside : kCaudalFin) * pose.axis_len : 0.0f;
+  // Of one that has been here before, no more is missing than it had then.
+  if (whole_len_ > 0) room = det::clamp(kWhole * whole_len_ - pose.axis_len, 0.0f, room);
   const auto near_edge = [&](Vec2 p) {
     return det::min(det::min(p.x, p.y), det::min(most_x - p.x, most_y - p.y)) < room;
   };
@@ -214,7 +221,7 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   const bool changed = last_swimmer_ != swimmer.id;
   last_swimmer_ = swimmer.id;
   if (changed || frames_without_pose_ > kForgetOrder) has_last_ = false, head_log_odds_ = 0;
-  if (changed) init_len = 0;
+  if (changed) init_len = last_len_ = 0;
   Landmarks& landmarks = tools.landmarks;
   Vec2 last[kOrderPoints];
   const bool found = landmarks.find(points(), hints(tools, swimmer, last), pose);
@@ -247,6 +254,7 @@ void FishTrack::remember(const Landmarks& landmarks) {
   has_last_ = true;
   frames_without_pose_ = 0;
   if (init_len == 0) init_len = pose.axis_len;
+  whole_len_ += (pose.axis_len - whole_len_) * (whole_len_ == 0 ? 1.0f : kWholePart);
   const std::span<const Vec2> reconstruction = landmarks.smooth_contour();
   for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = reconstruction[i];
 }

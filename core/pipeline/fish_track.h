@@ -91,6 +91,8 @@ struct FishTrack {
   bool has_last_ = false;
   bool touching_ = false;  // what was outlined holds a part of another one
   bool entering_ = true;  // it was cut by the frame's edge, or is new, and its tail has not been seen clear of the edge
+  float last_len_ = 0;    // of the axis, in the last frame that had one
+  float whole_len_ = 0;   // of the axis, as a rule
   bool opened_ = false;   // the last outline was a ring and has been cut
   bool fins_may_hide_ = false;  // of the last outline
   uint32_t last_swimmer_ = 0;

@@ -150,11 +150,13 @@ bool Swimmer::observe(const Box& whole, Vec2 centre, float area_px, float axis_l
   constexpr float kMerged = 1.6f, kMergedTouching = 1.2f;  // fins that open add at most a third
   constexpr float kShadow = 1.9f, kAsLong = 0.1f;  // as long as ever it has taken up remains of its shadow, not a fish
   constexpr float kShrunk = 0.6f;                  // an axis drawn across a ring, not along the fish
-  if (!whole_known_) whole_area_px_ = area_px, axis_len_px_ = axis_len_px, whole_known_ = true;
+  // Its first outline may have been of the part that was in the frame; its blob has grown since.
+  const bool known = whole_known_ && odd_frames_ < patience_frames;
+  if (!known) whole_area_px_ = area_px, axis_len_px_ = axis_len_px, whole_known_ = true;
   const bool as_long = det::abs(axis_len_px - axis_len_px_) < kAsLong * axis_len_px_;
   const float most = touching ? kMergedTouching : as_long ? kShadow : kMerged;
-  const bool odd = area_px > most * whole_area_px_ || axis_len_px < kShrunk * axis_len_px_;
-  if (odd && ++odd_frames_ <= patience_frames) {
+  if (area_px > most * this->area_px() || axis_len_px < kShrunk * axis_len_px_) {
+    ++odd_frames_;
     swim_on();
     return false;
   }

@@ -30,6 +30,11 @@ bool inside(const Box& box, Vec2 p, float margin) {
          p.y >= static_cast<float>(box.y0) - margin && p.y < static_cast<float>(box.y1) + margin;
 }
 
+Vec2 clamped(Vec2 p, const Box& box) {
+  return {det::clamp(p.x, static_cast<float>(box.x0), static_cast<float>(box.x1)),
+          det::clamp(p.y, static_cast<float>(box.y0), static_cast<float>(box.y1))};
+}
+
 float log_ratio(float a, float b) { return det::abs(det::log(det::max(a, 1.0f) / det::max(b, 1.0f))); }
 
 Looks looks_of(const Blob& blob, float luma) { return {static_cast<float>(blob.area_px), length_of(blob), luma}; }
@@ -126,9 +131,7 @@ void Swimmer::swim_in_heap(const Blob& heap) {
   ++heap_frames;
   in_heap = true;
   velocity = velocity * kSlowing;
-  centroid = centroid + velocity;
-  centroid.x = det::clamp(centroid.x, static_cast<float>(heap.box.x0), static_cast<float>(heap.box.x1));
-  centroid.y = det::clamp(centroid.y, static_cast<float>(heap.box.y0), static_cast<float>(heap.box.y1));
+  centroid = clamped(centroid + velocity, heap.box);
 }
 
 void Swimmer::change_reference(const Similarity& t) {
@@ -141,7 +144,7 @@ void Swimmer::change_reference(const Similarity& t) {
 }
 
 void Swimmer::swim_on() {
-  centroid = last_centroid_ + last_velocity_ * static_cast<float>(last_gap_);
+  centroid = clamped(last_centroid_ + last_velocity_ * static_cast<float>(last_gap_), box);
   velocity = last_velocity_;
 }
 
@@ -332,8 +335,7 @@ int Swimmers::heap_of(const Swimmer& s, std::span<const Blob> blobs) const {
   for (int i = 0; i < static_cast<int>(blobs.size()); ++i) {
     const Blob& blob = blobs[static_cast<std::size_t>(i)];
     if (blob.ghost || static_cast<float>(blob.area_px) < 0.7f * s.looks.area_px || is_small_beside(s, i)) continue;
-    const Vec2 inner{det::clamp(place.x, static_cast<float>(blob.box.x0), static_cast<float>(blob.box.x1)),
-                     det::clamp(place.y, static_cast<float>(blob.box.y0), static_cast<float>(blob.box.y1))};
+    const Vec2 inner = clamped(place, blob.box);
     const float off = length(place - inner) + 0.1f * length(place - blob.centroid);
     if (off < nearest) nearest = off, best = i;
   }

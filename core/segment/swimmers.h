@@ -60,7 +60,7 @@ class Swimmer {
   // shadow. False when the outline suddenly encloses much more or its axis is much shorter: the fish has merged with
   // something, or closed into a ring; for at most `patience` frames. `touching`: another one hangs together with it.
   bool observe(const Box& whole, Vec2 centre, float area_px, float axis_len_px, bool touching, int patience);
-  // This frame's blob was not it alone: it is taken to have swum on.
+  // This frame's blob was not it alone: it is taken to have swum on, inside it.
   void swim_on();
 
   // The camera has moved, and places are counted from another frame on: what is remembered goes along.

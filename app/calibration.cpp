@@ -138,6 +138,8 @@ Lens read_lens(const std::string& path, int width, int height) {
   return lens;
 }
 
+bool far_enough(const ScalePoints& points) { return length(points.a - points.b) >= kLeastScalePoints_px; }
+
 ScalePoints parse_scale_points(const std::string& text) {
   std::istringstream parts(text);
   std::vector<float> values;
@@ -146,8 +148,7 @@ ScalePoints parse_scale_points(const std::string& text) {
   if (values.size() != 4)
     throw UserError("--scale-points must be X1,Y1,X2,Y2 in pixels of the source video, not '" + text + "'", 2);
   const ScalePoints points{{values[0], values[1]}, {values[2], values[3]}};
-  if (length(points.a - points.b) < kLeastScalePoints_px)
-    throw UserError("--scale-points: the two points must lie at least 10 pixels apart", 2);
+  if (!far_enough(points)) throw UserError("--scale-points: the two points must lie at least 10 pixels apart", 2);
   return points;
 }
 

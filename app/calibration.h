@@ -34,6 +34,7 @@ struct ScalePoints {
   Vec2 a, b;  // pixels of the source video
 };
 ScalePoints parse_scale_points(const std::string& text);  // X1,Y1,X2,Y2; throws UserError
+bool far_enough(const ScalePoints& points);               // apart, for a scale
 
 struct Calibration {
   std::optional<Lens> lens;

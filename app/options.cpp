@@ -114,7 +114,7 @@ void add_calibration_options(CLI::App& command, CaptureOptions& o) {
       "two points of the source video whose distance is known (--scale-mm): poses in millimetres too");
   text(
       "--scale-mm", [&o](const std::string& s) { o.scale_mm = parse_number("--scale-mm", s, 0.001, 1e6); }, "L",
-      "how far these two points lie apart, millimetres");
+      "how far these two points lie apart, millimetres; live lets you click them");
   text(
       "--marker-mm", [&o](const std::string& s) { o.marker_mm = parse_number("--marker-mm", s, 0.1, 1e5); }, "SIDE",
       "a printed AprilTag (family 36h11) lies in the picture: the side of its black square, millimetres");

@@ -67,6 +67,7 @@ struct CaptureOptions {
   std::string lens;  // a file; "" = none
   std::optional<ScalePoints> scale_points;
   double scale_mm = 0, marker_mm = 0;  // 0: not given
+  bool scale_by_clicks = false;        // scale_mm without points: they are clicked in the window
 };
 void add_capture_options(CLI::App& command, CaptureOptions& options);
 

@@ -79,7 +79,7 @@ Session::Session(const CaptureOptions& options)
 
 void Session::calibrate(const CaptureOptions& options) {
   if (!options.lens.empty()) calibration_.lens = read_lens(options.lens, info().source_width, info().source_height);
-  if (options.scale_points.has_value() != (options.scale_mm > 0))
+  if (options.scale_points.has_value() != (options.scale_mm > 0) && !(options.scale_by_clicks && options.scale_mm > 0))
     throw UserError("--scale-points and --scale-mm go together: two points, and how far they lie apart", 2);
   if (options.scale_points && options.marker_mm > 0)
     throw UserError("--scale-points and --marker-mm both give the scale; choose one", 2);

@@ -37,6 +37,7 @@ class Session {
   const CameraInfo& info() const { return camera_->info(); }
   float scale() const;  // source width / working width
   const Calibration& calibration() const { return calibration_; }
+  void set_scale(const ScalePoints& points, double length_mm) { calibration_.set_scale(points, length_mm); }
   int64_t frame_index() const { return statistics_.frames - 1; }
   const std::string& background_why() const { return why_; }
   Stabilise stabilise() const { return stabilise_; }  // as asked for

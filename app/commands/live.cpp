@@ -17,6 +17,7 @@
 #include "app/cast.h"
 #include "app/check_outputs.h"
 #include "app/cli.h"
+#include "app/export/pose_csv.h"
 #include "app/export/recording.h"
 #include "app/export/report.h"
 #include "app/pacer.h"
@@ -68,6 +69,7 @@ class Live {
         display_(open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width,
                              actor_pane_.height, options.display)),
         pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {
+    measuring_ = options.capture.scale_mm > 0 && !options.capture.scale_points;
     if (options.take.empty()) return;
     TakeInfo info = take_info(session_, std::filesystem::path(options.take).stem().string());
     info.character = cast_.character_name();
@@ -100,9 +102,37 @@ class Live {
       if (event.kind == InputEvent::Kind::quit) quit_ = true;
       if (event.kind == InputEvent::Kind::key) press(event.key);
       if (event.kind == InputEvent::Kind::click && camera_pane_.contains(event.at)) {
-        session_.capture().select_at(camera_pane_.to_frame(event.at));
+        click(camera_pane_.to_frame(event.at));
       }
     }
+  }
+
+  void click(Vec2 at) {
+    if (measuring_) measure(to_source(at, session_.scale()));
+    else session_.capture().select_at(at);
+  }
+
+  // Two clicks on the ends of a known length: pixels to millimetres.
+  void measure(Vec2 source) {
+    hud_.renew();
+    if (!first_end_) {
+      first_end_ = source;
+      return;
+    }
+    const ScalePoints ends{*first_end_, source};
+    first_end_.reset();
+    if (!far_enough(ends)) return;  // twice the same place: anew
+    measuring_ = false;
+    session_.set_scale(ends, options_.capture.scale_mm);
+    std::fprintf(stderr,
+                 "scale: %.3f pixels per millimetre; another time: --scale-points %.0f,%.0f,%.0f,%.0f --scale-mm %g\n",
+                 session_.calibration().px_per_mm, static_cast<double>(ends.a.x), static_cast<double>(ends.a.y),
+                 static_cast<double>(ends.b.x), static_cast<double>(ends.b.y), options_.capture.scale_mm);
+  }
+
+  std::string measuring_state() const {
+    if (!measuring_) return "";
+    return first_end_ ? ", click the other end" : ", click the two ends of a length of --scale-mm";
   }
 
   void press(int key) {
@@ -207,10 +237,10 @@ class Live {
     compose();
     hud_.drawn();
     if (hud_.due(now_ns)) {
-      hud_.update(
-          now_ns, session_.statistics(),
-          {std::string(paused_ ? ", paused" : "") + (recording_ != nullptr ? ", recording " + recording_->name() : ""),
-           cast_.character_name(), kKeys});
+      hud_.update(now_ns, session_.statistics(),
+                  {std::string(paused_ ? ", paused" : "") + measuring_state() +
+                       (recording_ != nullptr ? ", recording " + recording_->name() : ""),
+                   cast_.character_name(), kKeys});
     }
     hud_.draw(scene_);
     display_->draw(scene_);
@@ -233,6 +263,8 @@ class Live {
   std::optional<TakeRecording> take_;
   FishRows rows_;
   bool paused_ = false, quit_ = false;
+  bool measuring_ = false;  // the next two clicks are the ends of --scale-mm
+  std::optional<Vec2> first_end_;
   int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
 };
 
@@ -244,6 +276,14 @@ void check(const Options& options) {
   inputs.insert(inputs.end(), options.cast.characters.begin(), options.cast.characters.end());
   inputs.push_back(options.backdrop.path);
   check_outputs(inputs, {options.json, options.take});
+  const bool clicks = options.capture.scale_mm > 0 && !options.capture.scale_points;
+  if (clicks && (options.layout == "alone" || !options.take.empty())) {
+    throw UserError(
+        "--scale-mm without --scale-points: its ends are clicked in the camera's picture, which --layout alone does "
+        "not "
+        "show, and a --take must know the scale before it starts; give --scale-points X1,Y1,X2,Y2",
+        2);
+  }
 }
 
 }  // namespace
@@ -253,6 +293,7 @@ void add_live(CLI::App& app, Action& action) {
       app.add_subcommand("live", "Open a window: the camera beside the character that swims like the fish");
   auto options = std::make_shared<Options>();
   add_capture_options(*command, options->capture);
+  options->capture.scale_by_clicks = true;
   add_cast_options(*command, options->cast, options->capture);
   options->cast.renderer_places = true;
   command

@@ -121,6 +121,27 @@ TEST_F(Live, AloneOnAColourWithTwoCharacters) {
   EXPECT_LT(fish[1], 235);  // the character is there
 }
 
+// The working frame is the source here, and the window shows it pixel for pixel.
+TEST_F(Live, TwoClicksOnALengthGiveTheScale) {
+  const std::string click = " click 1; sleep 0.5; ";
+  const Outcome run =
+      live("--background backlit --scale-mm 100 -c " + dir_ / "two.avi",
+           "xdotool mousemove --window $window 100 20" + click + "xdotool mousemove --window $window 102 20" +
+               click +  // too near: the two begin anew
+               "xdotool mousemove --window $window 100 20" + click + "xdotool mousemove --window $window 350 20" +
+               click + "xdotool key r; sleep 2; xdotool key r q");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("scale: 2.500 pixels per millimetre"), std::string::npos) << run.err;
+  const Outcome list = neontetra("takes --json " + dir_ / "rec-1.take");
+  EXPECT_NE(list.out.find("\"px_per_mm\": 2.5"), std::string::npos) << list.out << list.err;
+}
+
+TEST_F(Live, AScaleByClicksNeedsTheCamerasPicture) {
+  const Outcome run = neontetra("live --layout alone --scale-mm 100 --character " + kCarp + " -c " + dir_ / "two.avi");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("--scale-points"), std::string::npos) << run.err;
+}
+
 TEST_F(Live, ClickSelectsAndRRecords) {
   const std::string record = "xdotool key r; sleep 2; xdotool key r; sleep 0.5;";
   const std::string click = "xdotool mousemove --window $window 320 250 click 1; sleep 1;";

@@ -6,15 +6,15 @@
 namespace nt {
 namespace {
 
-constexpr int kAhead = 12;        // pixels of the line that are looked at together
-constexpr float kBeside = 3.0f;  // from its middle to where the ground is taken
-constexpr float kStep = 2.0f;
-constexpr int kAngles = 4;       // either side of straight on
-constexpr float kAngle = 0.17f;  // between them, radians
-constexpr float kSurely = 2.0f;  // noise sigmas of one pixel; of the mean along the line over five
-constexpr float kLeast = 2.0f;   // grey levels
-constexpr float kFades = 0.7f;  // of what stood out a step before; what ends at once fades faster
-constexpr float kKeepOn = 0.6f;  // of the direction's change is taken over in a step
+constexpr int kAhead = 12;                    // pixels of the line that are looked at together
+constexpr float kBeside = 3.0f;               // from its middle to where the ground is taken
+constexpr float kStep = 2.0f, kClear = 4.0f;  // pixels that are gone in a step, and that must be free before it
+constexpr int kAngles = 4;                    // either side of straight on
+constexpr float kAngle = 0.17f;               // between them, radians
+constexpr float kSurely = 2.0f;               // noise sigmas of one pixel; of the mean along the line over five
+constexpr float kLeast = 2.0f;                // grey levels
+constexpr float kFades = 0.7f;                // of what stood out a step before; what ends at once fades faster
+constexpr float kKeepOn = 0.6f;               // of the direction's change is taken over in a step
 
 class Ridge {
  public:
@@ -49,6 +49,11 @@ class Ridge {
   LumaView luma_, ground_;
 };
 
+bool covers(const BitMask& mask, const Box& box, Vec2 p) {
+  const int x = static_cast<int>(p.x) - box.x0, y = static_cast<int>(p.y) - box.y0;
+  return x >= 0 && y >= 0 && x < mask.width && y < mask.height && mask.at(x, y);
+}
+
 void paint(Vec2 from, Vec2 to, const Box& box, const BitMask& mask) {
   const int n = static_cast<int>(length(to - from) * 2.0f) + 1;
   for (int i = 0; i <= n; ++i) {
@@ -71,6 +76,7 @@ float follow_thin_tail(LumaView luma, LumaView ground, float noise_sigma, const 
   const float sign = light >= dark ? 1.0f : -1.0f;
   const float noise = det::max(kSurely * noise_sigma, kLeast);
   float before = det::max(light, dark), gone = 0;
+  bool left = false;
   while (gone < tail.most_px) {
     Vec2 best_direction = direction;
     float best = 0;
@@ -84,6 +90,9 @@ float follow_thin_tail(LumaView luma, LumaView ground, float noise_sigma, const 
     before = best;
     direction = normalised(lerp(direction, best_direction, kKeepOn));
     const Vec2 next = here + direction * kStep;
+    // Out of the mask and in again: this is the fish's own head, or another fish.
+    left |= !covers(mask, box, next);
+    if (left && covers(mask, box, next + direction * kClear)) break;
     paint(here, next, box, mask);
     here = next, gone += kStep;
   }

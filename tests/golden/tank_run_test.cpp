@@ -21,14 +21,14 @@ struct Golden {
 };
 
 constexpr Golden kGolden[] = {
-    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "3dcc1727493d6ff8", "b3a4779a74f8c541",
-     "d8691170fcd2f93d"},
-    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "ab87f5281340daa5", "0115244df2ca465b",
-     "b7da0b3c41bf8ccc"},
-    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "92e621055e707d65", "186cbac56dfa8af7",
-     "847de6df36a1d134"},
-    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "2f5c9778fbb8dc53", "87c931ddd73106af",
-     "e5182aacf5a2c059"},
+    {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "f26fa4a16acb3103", "71a465a27bd2b68e",
+     "501492d54c0c33c1"},
+    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "f9c185419e97b5df", "704c7a8800489389",
+     "1c212c749f3679d3"},
+    {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "82ca4a31949a75f5", "35d5635dbdf23e8f",
+     "faf797e364851a48"},
+    {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "15f5c18139272f45", "ceb5430d8a9dce55",
+     "60a42197388a3704"},
     {"calm", nt::BackgroundKind::still, 120, 960, 544, "4b5cb26b8a3874dc", "4e330cc078839fb6", "7fd9667d39eec822",
      "cad0b5f7d37f9378"},
     {"calm", nt::BackgroundKind::backlit, 120, 960, 544, "4b5cb26b8a3874dc", "6bb0c536ef08b9b5", "83fe39899187d078",

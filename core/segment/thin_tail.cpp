@@ -14,6 +14,7 @@ constexpr float kAngle = 0.17f;               // between them, radians
 constexpr float kSurely = 2.0f;               // noise sigmas of one pixel; of the mean along the line over five
 constexpr float kLeast = 2.0f;                // grey levels
 constexpr float kFades = 0.7f;                // of what stood out a step before; what ends at once fades faster
+constexpr float kStraight = 1.0f;             // of that, straight on: no need to look elsewhere
 constexpr float kKeepOn = 0.6f;               // of the direction's change is taken over in a step
 
 class Ridge {
@@ -79,8 +80,8 @@ float follow_thin_tail(LumaView luma, LumaView ground, float noise_sigma, const 
   bool left = false;
   while (gone < tail.most_px) {
     Vec2 best_direction = direction;
-    float best = 0;
-    for (int a = -kAngles; a <= kAngles; ++a) {
+    float best = ridge.contrast(here, direction, sign);
+    for (int a = -kAngles; a <= kAngles && best < kStraight * before; ++a) {
       const det::SinCos turn = det::sincos(kAngle * static_cast<float>(a));
       const Vec2 d{direction.x * turn.cos - direction.y * turn.sin, direction.x * turn.sin + direction.y * turn.cos};
       const float c = ridge.contrast(here, d, sign);

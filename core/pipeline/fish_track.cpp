@@ -9,7 +9,6 @@
 #include "core/outline/trace.h"
 #include "core/segment/clean.h"
 #include "core/segment/part.h"
-#include "core/segment/thin_tail.h"
 
 namespace nt {
 namespace {
@@ -24,9 +23,7 @@ constexpr float kNearlyClosed = 0.6f;                // of the axis, from head t
 constexpr float kCaudalFin = 0.19f;                  // of the axis that is seen without it
 constexpr float kWhole = 1.13f, kWholePart = 0.05f;  // of a fish's usual axis; how much of it a frame is
 constexpr float kGrowth = 1.08f, kBeside = 0.5f;     // of a fish that swims in, in a frame; of the axis, from the edge
-constexpr float kThinTail = 0.6f,
-                kWorthATrace = 0.015f;  // of the axis: the longest that a mask loses, the least that counts
-constexpr float kCutWidth = 1.5f;       // pixels, either side of the line that opens a ring
+constexpr float kCutWidth = 1.5f;                    // pixels, either side of the line that opens a ring
 
 }  // namespace
 
@@ -71,7 +68,7 @@ PoseStatus FishTrack::outline(const CaptureTools& tools, const Swimmer& swimmer)
   const Blob& blob = tools.blobs.blobs()[static_cast<std::size_t>(index)];
   const LumaView luma = tools.frame.luma;
   Refine& refine = tools.refine;
-  const FishMask& fish = mask_ =
+  const FishMask fish =
       refine.fish(luma, tools.background.estimate(), tools.background.noise_sigma(), blob, index, tools.blobs.runs(),
                   tools.settings.shadows && tools.background.can_have_shadows(), &tools.background);
   if (refine.runs_dropped()) tools.report.flags |= kRunsDropped;
@@ -220,21 +217,6 @@ LandmarkHints FishTrack::hints(const CaptureTools& tools, const Swimmer& swimmer
   return hints;
 }
 
-// True when the tail went on, thinner than the mask had it, and the contour now holds it.
-bool FishTrack::follow_tail(const CaptureTools& tools) {
-  const std::span<const Vec2> midline = tools.landmarks.midline();
-  const Vec2 from = midline[static_cast<std::size_t>(kStations - 1 - kStations / 8)];
-  const Vec2 before = midline[static_cast<std::size_t>(kStations - 1 - kStations / 4)];
-  if (length_sq(from - before) == 0.0f) return false;
-  const ThinTail tail{from, normalised(from - before), kThinTail * pose.axis_len};
-  const float reached = follow_thin_tail(tools.frame.luma, tools.background.estimate(), tools.background.noise_sigma(),
-                                         tail, mask_.box, mask_.mask);
-  if (reached < length(pose.tail - from) + kWorthATrace * pose.axis_len) return false;
-  trace(tools, mask_);
-  measure_contour(tools.frame.luma.width, tools.frame.luma.height, tools.frame_from_reference);
-  return true;
-}
-
 PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   // After a gap the fish may have turned round out of sight: only shape and travel say where its head is.
   const bool changed = last_swimmer_ != swimmer.id;
@@ -243,8 +225,7 @@ PoseStatus FishTrack::find_pose(const CaptureTools& tools, Swimmer& swimmer) {
   if (changed) init_len = last_len_ = 0;
   Landmarks& landmarks = tools.landmarks;
   Vec2 last[kOrderPoints];
-  bool found = landmarks.find(points(), hints(tools, swimmer, last), pose);
-  if (found && follow_tail(tools)) found = landmarks.find(points(), hints(tools, swimmer, last), pose);
+  const bool found = landmarks.find(points(), hints(tools, swimmer, last), pose);
   tools.clock.lap(Stage::landmarks);
   const int largest = tools.settings.max_area_px;
   const bool too_large = largest > 0 && landmarks.area_px() > static_cast<float>(largest);

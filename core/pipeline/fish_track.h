@@ -76,7 +76,6 @@ struct FishTrack {
   Vec2 predicted(const Swimmer& swimmer) const;
   void trace(const CaptureTools& tools, const FishMask& fish);
   bool tail_may_be_outside(const CaptureTools& tools);
-  bool follow_tail(const CaptureTools& tools);
   bool measure_contour(int width, int height, const Similarity& frame_from_reference);
   void to_frame(const Similarity& frame_from_reference);
   bool may_be_closed() const;
@@ -92,7 +91,6 @@ struct FishTrack {
   bool has_last_ = false;
   bool touching_ = false;  // what was outlined holds a part of another one
   bool entering_ = true;  // it was cut by the frame's edge, or is new, and its tail has not been seen clear of the edge
-  FishMask mask_;         // of this frame, until the next fish is outlined
   float last_len_ = 0;    // of the axis, in the last frame that had one
   float whole_len_ = 0;   // of the axis, as a rule
   bool opened_ = false;   // the last outline was a ring and has been cut

@@ -53,7 +53,8 @@ TEST_F(EditWindow, ADraggedTailIsSavedUndoneAndSwims) {
            "xdotool key space; sleep 1; shot swim1; sleep 0.7; shot swim2; xdotool key space; sleep 0.3\n"
            "xdotool key ctrl+z; sleep 0.3; shot undone; xdotool key ctrl+s; sleep 0.7; xdotool key q");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.error_lines(), 1) << run.err;  // which display it is
+  EXPECT_EQ(run.err.rfind("display: ", 0), 0u) << run.err;
 
   const std::optional<Vec2> dragged = find(picture("dragged"), {0xFF, 0x6B, 0x2F});
   ASSERT_TRUE(dragged);

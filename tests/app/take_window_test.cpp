@@ -52,7 +52,8 @@ TEST_F(TakeWindow, AFinIsDraggedItsNeighboursFollowAndItIsUndoneSavedAndReopened
                            "xdotool key ctrl+z; sleep 0.4; shot undone; xdotool key ctrl+y; sleep 0.3; "
                            "xdotool key ctrl+s; sleep 0.5; xdotool key q");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.error_lines(), 1) << run.err;  // which display it is
+  EXPECT_EQ(run.err.rfind("display: ", 0), 0u) << run.err;
   EXPECT_GT(cv::norm(picture("held"), picture("before"), cv::NORM_L1), 50'000);
 
   const std::string list = neontetra("edit " + take_ + " --list").out;

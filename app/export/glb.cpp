@@ -15,7 +15,7 @@
 namespace nt {
 namespace {
 
-constexpr int kFitRounds = 6;
+constexpr int kFitRounds = 12;
 
 // The scene is the working frame itself.
 const Pane kFramePane{{-0.5f, -0.5f}, 1, 0, 0};
@@ -179,11 +179,12 @@ class Maker {
   // Weights and turns in turn: each makes the other one's rest smaller.
   void fit() {
     for (int round = 0;; ++round) {
-      model_.skin = fit_skin(character_.vertices, rig_.joints(), samples_, body_len_);
+      model_.skin = fit_skin(character_.vertices, rig_.joints(), samples_, body_len_, model_.skin);
       if (round == kFitRounds) break;
       for (SkinSample& sample : samples_)
         fit_turns(model_.skin, character_.vertices, sample.vertices, rig_.joints(), body_len_, sample.joints);
     }
+    share_with_neighbours(model_.skin, character_.triangles, character_.vertices, rig_.joints(), samples_);
     samples_.clear();
   }
 

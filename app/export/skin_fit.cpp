@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/base/det_math.h"
 
@@ -73,21 +75,60 @@ SkinVertex strongest(const Eigen::MatrixXd& g, const Eigen::VectorXd& w) {
   return skin;
 }
 
+// How much each sample counts for a vertex: more where the last fit is farther off than it is as a rule, so that the
+// greatest errors shrink (iteratively reweighted least squares; the fourth power of the error in place of the second).
+void weigh_worst(const SkinVertex& before, Vec2 rest, std::span<const RigJoint> joints,
+                 std::span<const SkinSample> samples, std::size_t v, std::span<float> counts) {
+  float sum = 0;
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    counts[s] = length_sq(skinned(before, rest, joints, samples[s].joints) - samples[s].vertices[v]);
+    sum += counts[s];
+  }
+  const float mean = sum / static_cast<float>(samples.size());
+  for (float& c : counts) c = mean > 0 ? std::sqrt(1.0f + c / mean) : 1.0f;
+}
+
+float worst_sq(const SkinVertex& skin, Vec2 rest, std::span<const RigJoint> joints, std::span<const SkinSample> samples,
+               std::size_t v) {
+  float worst = 0;
+  for (const SkinSample& sample : samples)
+    worst = std::max(worst, length_sq(skinned(skin, rest, joints, sample.joints) - sample.vertices[v]));
+  return worst;
+}
+
 }  // namespace
 
+void share_with_neighbours(std::span<SkinVertex> skin, std::span<const uint32_t> triangles,
+                           std::span<const Vec2> vertices, std::span<const RigJoint> joints,
+                           std::span<const SkinSample> samples) {
+  const std::vector<SkinVertex> fitted(skin.begin(), skin.end());
+  std::vector<float> worst(skin.size());
+  for (std::size_t v = 0; v < skin.size(); ++v) worst[v] = worst_sq(fitted[v], vertices[v], joints, samples, v);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::size_t v = triangles[i], neighbour = triangles[i - i % 3 + (i + 1) % 3];
+    for (const auto& [to, from] : {std::pair{v, neighbour}, std::pair{neighbour, v}}) {
+      const float other = worst_sq(fitted[from], vertices[to], joints, samples, to);
+      if (other < worst[to]) worst[to] = other, skin[to] = fitted[from];
+    }
+  }
+}
+
 std::vector<SkinVertex> fit_skin(std::span<const Vec2> vertices, std::span<const RigJoint> joints,
-                                 std::span<const SkinSample> samples, float length) {
+                                 std::span<const SkinSample> samples, float length,
+                                 std::span<const SkinVertex> before) {
   const auto count = static_cast<Eigen::Index>(joints.size());
   const auto rows = static_cast<Eigen::Index>(2 * samples.size());
   std::vector<SkinVertex> skin(vertices.size());
   Eigen::MatrixXf apart(rows, count);
+  std::vector<float> counts(samples.size(), 1.0f);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!before.empty()) weigh_worst(before[v], vertices[v], joints, samples, v, counts);
     Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index j = 0; j < count; ++j) {
       const auto joint = static_cast<std::size_t>(j);
       for (std::size_t s = 0; s < samples.size(); ++s) {
-        const Vec2 a =
-            (moved(joints[joint], samples[s].joints[joint], vertices[v]) - samples[s].vertices[v]) * (1.0f / length);
+        const Vec2 a = (moved(joints[joint], samples[s].joints[joint], vertices[v]) - samples[s].vertices[v]) *
+                       (counts[s] / length);
         apart(static_cast<Eigen::Index>(2 * s), j) = a.x;
         apart(static_cast<Eigen::Index>(2 * s + 1), j) = a.y;
       }

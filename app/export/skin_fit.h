@@ -30,9 +30,15 @@ struct SkinSample {
   std::vector<Vec2> vertices;
 };
 
-// `length`: of the body, the unit in which distances count.
+// `length`: of the body, the unit in which distances count. `before`: the last fit, whose greatest errors are to shrink.
 std::vector<SkinVertex> fit_skin(std::span<const Vec2> vertices, std::span<const RigJoint> joints,
-                                 std::span<const SkinSample> samples, float length);
+                                 std::span<const SkinSample> samples, float length,
+                                 std::span<const SkinVertex> before = {});
+
+// A vertex whose neighbour's weights (three indices a triangle) leave it nearer in its worst sample takes those.
+void share_with_neighbours(std::span<SkinVertex> skin, std::span<const uint32_t> triangles,
+                           std::span<const Vec2> vertices, std::span<const RigJoint> joints,
+                           std::span<const SkinSample> samples);
 
 // Turns each joint, where it is, so that the skin comes nearest to `wanted`: joint by joint against what the others leave,
 // kTurnRounds times, from its bone's turn and held to it a little. The root keeps its own. Cost: vertices x influences x kTurnRounds.

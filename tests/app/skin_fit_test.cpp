@@ -56,6 +56,20 @@ TEST(SkinFit, FindsWeightsThatExplainTheMotion) {
   }
 }
 
+TEST(SkinFit, AVertexTakesItsNeighboursWeightsWhereTheyExplainItsWorstBetter) {
+  const Bar bar;
+  std::vector<SkinVertex> skin(bar.vertices.size());
+  for (std::size_t v = 0; v < skin.size(); ++v)
+    skin[v].joints = {static_cast<uint16_t>(bar.vertices[v].x > 6 ? 1 : 0)}, skin[v].weights = {1};
+  const std::vector<SkinVertex> right = skin;
+  const std::vector<SkinSample> samples{moved_by(bar, right, 0.1f), moved_by(bar, right, 0.9f)};
+  constexpr std::size_t kOdd = 31;  // at x = 10
+  skin[kOdd].joints = {0};
+  const std::vector<uint32_t> triangles{30, 31, 33, 33, 31, 34, 0, 1, 3};
+  share_with_neighbours(skin, triangles, bar.vertices, bar.joints, samples);
+  for (std::size_t v = 0; v < skin.size(); ++v) EXPECT_EQ(skin[v].joints[0], right[v].joints[0]) << v;
+}
+
 TEST(SkinFit, TurnsAJointToWhereItsVerticesWent) {
   const Bar bar;
   std::vector<SkinVertex> skin(bar.vertices.size());

@@ -81,8 +81,8 @@ void Session::calibrate(const CaptureOptions& options) {
   if (!options.lens.empty()) calibration_.lens = read_lens(options.lens, info().source_width, info().source_height);
   if (options.scale_points.has_value() != (options.scale_mm > 0) && !(options.scale_by_clicks && options.scale_mm > 0))
     throw UserError("--scale-points and --scale-mm go together: two points, and how far they lie apart", 2);
-  if (options.scale_points && options.marker_mm > 0)
-    throw UserError("--scale-points and --marker-mm both give the scale; choose one", 2);
+  if (options.scale_mm > 0 && options.marker_mm > 0)
+    throw UserError("--scale-mm and --marker-mm both give the scale; choose one", 2);
   if (options.scale_points) calibration_.set_scale(*options.scale_points, options.scale_mm);
   if (options.marker_mm <= 0) return;
   for (int n = 0; n < kMarkerFrames && calibration_.px_per_mm <= 0; ++n) {

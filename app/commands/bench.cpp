@@ -21,8 +21,10 @@
 namespace nt {
 namespace {
 
+constexpr int64_t kTankFrames = 300;
+
 struct Options {
-  int64_t frames = 300;
+  int64_t frames = 0;  // 0: 300 of the tank, all of a recording
   std::string size = "960x544";
   std::string background = "vibe";
   std::string character;
@@ -36,7 +38,7 @@ CaptureOptions tank_options(const Options& options) {
   CaptureOptions capture;
   capture.camera = parse_camera_spec("sim:size=" + options.size);
   capture.work = parse_size("--work-size", options.size);  // timed as it is made, not shrunk
-  capture.frames = options.frames;
+  capture.frames = options.frames > 0 ? options.frames : kTankFrames;
   capture.background = parse_background(options.background);
   return capture;
 }
@@ -77,8 +79,9 @@ void bench_lattice(const Options& options) {
   const Character& character = file.character();
   const MarkerFile recording =
       options.markers.empty() ? swaying_markers(character) : read_recording(options.markers, options.choice);
-  const LatticeColumn column{std::filesystem::path(path).stem().string(),
-                             lattice_figures(character, recording, options.choice, -1)};
+  const LatticeColumn column{
+      std::filesystem::path(path).stem().string(),
+      lattice_figures(character, recording, options.choice, options.frames > 0 ? options.frames : -1)};
   if (options.json) {
     write_text("-", pretty(lattice_json(column)));
     return;
@@ -128,7 +131,7 @@ void bench(const Options& options) {
 void add_bench(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Time every stage on the simulated tank");
   auto options = std::make_shared<Options>();
-  command->add_option("--frames", options->frames, "how many (default 300)")
+  command->add_option("--frames", options->frames, "how many (default 300; with --lattice all of the recording)")
       ->type_name("N")
       ->check(CLI::Range(2, 1000000));
   command->add_option("--work-size", options->size, "frame size (default 960x544)")->type_name("WxH");

@@ -81,6 +81,7 @@ TEST(PreRecord, KeepsTheLastFramesOldestFirst) {
   }
 }
 
+constexpr int kOwnPeriod_ms = 900;
 // NEONTETRA_KILLS=200 NEONTETRA_PERIOD_MS=900, which is the program's own, is the long form; CI runs a short one at a shorter period.
 int from_environment(const char* name, int fallback) {
   const char* text = std::getenv(name);
@@ -112,7 +113,9 @@ TEST(TakeRecorder, AKillLosesAtMostTheLastPeriod) {
   RecordProperty("worst_loss_ms", static_cast<int>(worst_ns / 1'000'000));
   std::printf("%d kills, at most %.0f ms lost at a period of %d ms\n", kills, static_cast<double>(worst_ns) * 1e-6,
               period_ms);
-  EXPECT_LT(worst_ns, (period_ms + 500) * int64_t{1'000'000});  // a busy machine may commit late
+  // The program's own period is held to a second; at the short one a busy machine may commit late.
+  const int most_ms = period_ms >= kOwnPeriod_ms ? 1000 : period_ms + 500;
+  EXPECT_LT(worst_ns, most_ms * int64_t{1'000'000});
 }
 
 TEST(TakeRecorder, ARecoveredTakeIsOneFileAgain) {

@@ -228,5 +228,41 @@ TEST(Swimmers, AnOutlineThatSuddenlyEnclosesMuchMoreIsAMergedOne) {
   EXPECT_FALSE(observe(2800, 50, false)) << "half the axis: closed into a ring";
 }
 
+TEST(Swimmers, AFirstOutlineInPartGrowsWithItsBlob) {
+  Swimmers swimmers;
+  const auto observe = [&](const Blob& blob, float area_px, float axis_px) {
+    swimmers.update(Scene{blob}, {}, {});
+    return swimmers.all()[0].observe(blob.box, blob.centroid, area_px, axis_px, false, 30);
+  };
+  EXPECT_TRUE(observe(ellipse({60, 100}, 18, 10), 500, 30));
+  for (int n = 0; n < 4; ++n) EXPECT_TRUE(observe(fish_at(60, 100), 1300, 80)) << n;
+}
+
+TEST(Swimmers, WhatCannotBeToldSwimsOnInsideItsBlob) {
+  Swimmers swimmers;
+  const auto observe = [&](const Blob& blob, float area_px) {
+    swimmers.update(Scene{blob}, {}, {});
+    return swimmers.all()[0].observe(blob.box, blob.centroid, area_px, 80, false, 30);
+  };
+  for (int n = 0; n < 8; ++n) observe(fish_at(100 + 30.0f * static_cast<float>(n), 100), 1250);
+  const Blob held = fish_at(310, 100);
+  for (int n = 0; n < 8; ++n) {
+    EXPECT_FALSE(observe(held, 4000));
+    EXPECT_LE(swimmers.all()[0].centroid.x, static_cast<float>(held.box.x1)) << n;
+  }
+}
+
+TEST(Swimmers, AFinThatSwimsInBesideItsFishIsAPartOfIt) {
+  Swimmers swimmers;
+  for (int n = 0; n < 10; ++n) swimmers.update(Scene{fish_at(60, 100)}, {}, {});
+  const uint32_t fish = swimmers.all()[0].id;
+  swimmers.update(Scene{fish_at(60, 100), ellipse({50, 130}, 10, 5)}, {}, {});
+  ASSERT_EQ(swimmers.all().size(), 2u);
+  EXPECT_EQ(swimmers.all()[1].part_of, fish);
+  swimmers.update(Scene{fish_at(60, 100), ellipse({50, 130}, 10, 5), ellipse({300, 100}, 10, 5)}, {}, {});
+  ASSERT_EQ(swimmers.all().size(), 3u);
+  EXPECT_EQ(swimmers.all()[2].part_of, 0u) << "farther away than the fish is long";
+}
+
 }  // namespace
 }  // namespace nt

@@ -130,5 +130,14 @@ TEST(Target, AGhostIsNeverTheFish) {
   EXPECT_EQ(film.see(scene), -1);
 }
 
+TEST(Target, OneOddFrameDoesNotHandItOver) {
+  Film film;
+  for (int n = 0; n < 60; ++n) {
+    const float x = 100 + 4.0f * static_cast<float>(n);
+    const Blob odd = ellipse({x, 40}, 40, 38);  // two over each other
+    EXPECT_EQ(film.see({n == 50 ? odd : fish_at(x, 40), ellipse({x, 160}, 36, 9)}), 0) << n;
+  }
+}
+
 }  // namespace
 }  // namespace nt

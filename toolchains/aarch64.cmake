@@ -1,30 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# 64-bit ARM Linux with Debian's cross compiler; programs run here under QEMU user mode.
-# NEONTETRA_SYSROOT: a folder with Debian's arm64 packages unpacked (tests/vm/make_machine.sh makes one), for the whole
-# program; without it only what needs no library, core and the tank, can be built.
-set(CMAKE_SYSTEM_NAME Linux)
+# 64-bit ARM: Raspberry Pi 3 and later with a 64-bit Debian, and the like.
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
-set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
-set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
-list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES NEONTETRA_SYSROOT)
-if(NEONTETRA_SYSROOT)
-  set(CMAKE_SYSROOT ${NEONTETRA_SYSROOT})
-  set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
-  set(ENV{PKG_CONFIG_SYSROOT_DIR} ${NEONTETRA_SYSROOT})
-  set(ENV{PKG_CONFIG_LIBDIR} ${NEONTETRA_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${NEONTETRA_SYSROOT}/usr/share/pkgconfig)
-  set(root ${NEONTETRA_SYSROOT})
-  # Libraries in folders of their own (BLAS, LAPACK, PulseAudio) are found by the loader's configuration, not by the linker.
-  set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,--allow-shlib-undefined -Wl,-rpath-link,${root}/usr/lib/aarch64-linux-gnu")
-  set(CMAKE_MODULE_LINKER_FLAGS_INIT "${CMAKE_EXE_LINKER_FLAGS_INIT}")
-else()
-  set(root /usr/aarch64-linux-gnu)
-endif()
-set(CMAKE_FIND_ROOT_PATH ${root})
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
-find_program(NEONTETRA_QEMU_AARCH64 NAMES qemu-aarch64 qemu-aarch64-static)
-if(NEONTETRA_QEMU_AARCH64)
-  set(CMAKE_CROSSCOMPILING_EMULATOR ${NEONTETRA_QEMU_AARCH64} -L ${root})
-endif()
+set(triplet aarch64-linux-gnu)
+set(emulator qemu-aarch64)
+include(${CMAKE_CURRENT_LIST_DIR}/debian_cross.cmake)

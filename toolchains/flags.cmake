@@ -14,6 +14,13 @@ if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   # none of the AES instructions, and compilers do not make them up, so a Raspberry Pi 4, which lacks them, is fine.
   add_compile_options(-march=armv8-a+crypto)
 endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "armv7")
+  # Debian's armhf compiler leaves NEON out, and Highway would be scalar. GCC itself does float arithmetic with VFP, as IEEE 754
+  # says; Highway's float operations are NEON's, which take denormal numbers for zero (docs/ARCHITECTURE.md).
+  # Highway names the type __fp16. GCC would note at each function with 64-bit values that GCC 6 had passed them otherwise.
+  add_compile_options(-march=armv7-a+neon-vfpv4 -mfpu=auto -mfloat-abi=hard -mfp16-format=ieee -Wno-psabi)
+  add_compile_definitions(_FILE_OFFSET_BITS=64)  # videos and takes of more than 2 GB
+endif()
 if(NEONTETRA_DETERMINISTIC)
   # Highway's scalar target: one lane, no vector instructions. The golden tests then show that results depend neither on
   # the instruction set nor on the number of lanes.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# make_sysroot.sh ARCH FOLDER PACKAGE...: Debian 12 packages of another architecture and all that they depend on, unpacked into
-# FOLDER for a cross build (NEONTETRA_SYSROOT). Nothing is installed or configured, here or there, and nothing of them runs.
+# make_sysroot.sh [--once] ARCH FOLDER [PACKAGE...]: Debian 12 packages of another architecture, those of packages.txt beside this
+# script and these, and all that they depend on, unpacked into FOLDER for a cross build (NEONTETRA_SYSROOT). Nothing is installed
+# or configured, here or there, and nothing of them runs. --once: unless it is there already, made of the same.
 #
 # FOLDER/var/lib/dpkg/shlibs says which package each library came with, for dpkg-shlibdeps (`./dev package`).
 # Needs root's rights or user namespaces (mmdebstrap). arm64: about a minute and 1.5 GB.
@@ -44,12 +45,18 @@ if [[ $1 == --note ]]; then
   note_packages "$2"
   exit
 fi
+once=
+[[ $1 == --once ]] && once=yes && shift
 arch=$1 folder=$(realpath -m "$2")
 shift 2
-wanted=$(tr ' ' , <<<"$*")
+list=$(dirname "$self")/packages.txt
+stamp=$({ cat "$self" "$list" && echo "$arch" "$@"; } | sha256sum)
+if [[ -n $once && $(cat "$folder/stamp" 2>/dev/null) == "$stamp" ]]; then exit; fi
+wanted=$({ sed 's/#.*//' "$list" && echo "$@"; } | xargs | tr ' ' ,)
 main="deb $(mirror bookworm) bookworm main"
 security="deb $(mirror bookworm-security) bookworm-security main"
 # The security suite of a port is at times out of step with its own index: then the point release alone.
-unpack "$main" "$security" || unpack "$main"
+unpack "$main" "$security" || { echo "sysroot: without the security suite" >&2 && unpack "$main"; }
 mend_links
 rm -rf "$folder"/usr/share/{doc/[!l]*,man,locale} "$folder"/var/cache/apt "$folder"/var/lib/apt
+echo "$stamp" >"$folder/stamp"

@@ -113,10 +113,11 @@ std::vector<std::byte> character_bytes(const Character& character) {
   h.triangles_offset = append(bytes, character.triangles.data(), character.triangles.size_bytes());
   const std::size_t row = std::size_t{4} * h.texture_width;
   if (character.lattice.present()) h.lattice_offset = append_lattice(bytes, character.lattice);
-  h.texture_offset = align_up(bytes.size());
-  bytes.resize(h.texture_offset + row * h.texture_height);
+  const std::size_t texture = align_up(bytes.size());
+  h.texture_offset = texture;
+  bytes.resize(texture + row * h.texture_height);
   for (std::size_t y = 0; y < h.texture_height; ++y) {
-    std::memcpy(bytes.data() + h.texture_offset + y * row,
+    std::memcpy(bytes.data() + texture + y * row,
                 character.texture.pixels + y * static_cast<std::size_t>(character.texture.stride), row);
   }
   h.file_bytes = bytes.size();

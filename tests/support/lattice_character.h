@@ -35,7 +35,7 @@ class LatticeCharacter {
     std::memcpy(bytes().data() + offsetof(CharacterHeader, checksum), &sum, sizeof sum);
   }
   template <class T>
-  void put(std::size_t offset, T value) {
+  void put(uint64_t offset, T value) {
     std::memcpy(bytes().data() + offset, &value, sizeof value);
     seal();
   }

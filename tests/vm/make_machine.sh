@@ -7,7 +7,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 if [[ $1 == --once ]]; then  # unless it is there already, made by the same files
-  stamp=$(cat "$here"/{make_machine.sh,packages.txt,guest/init} "$here/../../toolchains/make_sysroot.sh" | sha256sum)
+  stamp=$(cat "$here"/{make_machine.sh,packages.txt,guest/init} "$here"/../../toolchains/{make_sysroot.sh,packages.txt} | sha256sum)
   [[ $(cat "$2/stamp" 2>/dev/null) == "$stamp" ]] && exit
   "$0" "$2" && echo "$stamp" >"$2/stamp"
   exit

@@ -29,7 +29,7 @@ void seal(DrawnCharacter& c) {
 }
 
 template <class T>
-void put(DrawnCharacter& c, std::size_t offset, T value) {
+void put(DrawnCharacter& c, uint64_t offset, T value) {
   std::memcpy(c.bytes().data() + offset, &value, sizeof value);
   seal(c);
 }
@@ -83,7 +83,7 @@ TEST(Character, ASolidHasHeightsAndNormals) {
   EXPECT_EQ(opened.value().heights[0], 5.0f);
   EXPECT_EQ(opened.value().normals[1].z, 1.0f);
   const CharacterHeader h = drawn.header();
-  const auto refused = [](std::size_t offset, auto value) {
+  const auto refused = [](uint64_t offset, auto value) {
     DrawnCharacter c(true, 3, 15, true);
     put(c, offset, value);
     return !open(c.bytes()).ok();
@@ -135,7 +135,7 @@ TEST(Character, ValuesOutOfRangeAreRefusedBehindARightChecksum) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   DrawnCharacter good;
   const CharacterHeader h = good.header();
-  const auto refused = [](std::size_t offset, auto value) {
+  const auto refused = [](uint64_t offset, auto value) {
     DrawnCharacter c;
     put(c, offset, value);
     return !open(c.bytes()).ok();

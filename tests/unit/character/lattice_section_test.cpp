@@ -53,14 +53,14 @@ TEST(LatticeSection, WhatDoesNotFitIsRefused) {
   LatticeCharacter good;
   const CharacterHeader h = good.header();
   const LatticeHeader l = good.lattice_header();
-  const auto refused = [](std::size_t offset, auto value) {
+  const auto refused = [](uint64_t offset, auto value) {
     LatticeCharacter c;
     c.put(offset, value);
     const auto opened = open_character(c.bytes(), Limits{});
     EXPECT_TRUE(opened.ok() || std::string(opened.status().message).find('\n') == std::string::npos);
     return !opened.ok();
   };
-  const std::size_t at = h.lattice_offset;
+  const uint64_t at = h.lattice_offset;
   EXPECT_TRUE(refused(offsetof(CharacterHeader, lattice_offset), h.lattice_offset + 8));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, lattice_offset), ~uint64_t{63}));
   EXPECT_TRUE(refused(offsetof(CharacterHeader, version), uint32_t{2}));

@@ -382,8 +382,17 @@ void GlesRenderer::upload(const Picture& picture, bool fresh) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, green_blue != 0 ? green_blue : GL_GREEN);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, green_blue != 0 ? green_blue : GL_BLUE);
   }
-  // Rows are packed here: the stride need not be a whole number of pixels, which GL_UNPACK_ROW_LENGTH would ask for.
-  const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(format.bytes);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, format.external, GL_UNSIGNED_BYTE,
+                  packed(picture, static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(format.bytes)));
+  if (drawing) glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+// Its rows without gaps: the stride need not be a whole number of pixels, which GL_UNPACK_ROW_LENGTH would ask for. A camera's
+// picture mostly has none, and is half a megabyte that need not be copied.
+const uint8_t* GlesRenderer::packed(const Picture& picture, std::size_t row_bytes) {
+  const bool drawing = picture.format == PixelFormat::rgba8;
+  if (!drawing && static_cast<std::size_t>(picture.stride) == row_bytes) return picture.pixels;
   staging_.resize(row_bytes * static_cast<std::size_t>(picture.height));
   for (int y = 0; y < picture.height; ++y) {
     const uint8_t* from = picture.pixels + static_cast<std::ptrdiff_t>(y) * picture.stride;
@@ -394,10 +403,7 @@ void GlesRenderer::upload(const Picture& picture, bool fresh) {
       for (std::size_t k = 0; k < 3; ++k) to[i + k] = static_cast<uint8_t>((to[i + k] * to[i + 3] + 127) / 255);
     }
   }
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, picture.width, picture.height, format.external, GL_UNSIGNED_BYTE,
-                  staging_.data());
-  if (drawing) glGenerateMipmap(GL_TEXTURE_2D);
+  return staging_.data();
 }
 
 }  // namespace nt

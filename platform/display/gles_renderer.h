@@ -74,6 +74,7 @@ class GlesRenderer {
   void upload_buffers();
   void bind_texture(const Picture& picture);
   void upload(const Picture& picture, bool fresh);
+  const uint8_t* packed(const Picture& picture, std::size_t row_bytes);
   Texture& slot(uint32_t id);
 
   struct Program {

@@ -12,6 +12,7 @@ TEST(TimeHistogram, QuantilesAreWithinThreePercent) {
   for (int i = 1; i <= 1000; ++i) times.add(i * 1000);
   EXPECT_NEAR(times.quantile_ns(0.5), 500e3, 15e3);
   EXPECT_NEAR(times.quantile_ns(0.99), 990e3, 30e3);
+  EXPECT_NEAR(times.quantile_ns(0.999), 999e3, 30e3);
   times.add(-5);
   times.add(INT64_MAX);
   EXPECT_EQ(times.count(), 1002);

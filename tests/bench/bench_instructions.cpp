@@ -4,7 +4,7 @@
 // slow-down shows where times scatter. --check compares with the pinned counts in FILE (lines `WxH COUNT`), 2 % either way.
 //
 // The program films the tank into a file, then runs itself under callgrind to replay it; only counted_step() is counted,
-// and only for the last kCounted frames, in which the fish is there.
+// and only for the last kCounted frames (tests/bench/counted_film.h), in which the fish is there.
 #include <sys/wait.h>
 
 #include <cmath>
@@ -17,70 +17,44 @@
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "core/base/simd_target.h"
 #include "core/pipeline/pipeline.h"
-#include "platform/sim/tank.h"
+#include "tests/bench/counted_film.h"
 #include "tests/support/block.h"
 #include "tests/support/temp_dir.h"
 
 namespace {
 
-constexpr int kBefore = 80;  // frames after which model, noise and tracking have settled
-constexpr int kCounted = 16;
-constexpr int kFirst = 100;  // the fish has swum in by then, whole
 constexpr double kTolerance = 0.02;
-
-struct Size {
-  int width, height;
-  std::string name() const { return std::to_string(width) + "x" + std::to_string(height); }
-};
-
-// One empty frame for the model to start with, then the fish.
-void film(const std::string& path, Size size) {
-  nt::Tank tank({.scene = "calm", .seed = 1, .width = size.width, .height = size.height});
-  std::ofstream file(path, std::ios::binary);
-  for (int n = 0; n < kFirst + kBefore - 1 + kCounted; ++n) {
-    const nt::LumaView luma = tank.render_next();
-    if (n != 0 && n < kFirst) continue;
-    for (int y = 0; y < luma.height; ++y) file.write(reinterpret_cast<const char*>(luma.row(y)), luma.width);
-  }
-  if (!file.flush()) throw std::runtime_error("cannot write " + path);
-}
 
 // What callgrind counts: its name is given to --toggle-collect.
 __attribute__((noinline)) bool counted_step(nt::Capture& capture, const nt::Frame& frame) {
   return capture.step(frame).status == nt::PoseStatus::ok;
 }
 
-int replay(const std::string& path, Size size) {
+int replay(const std::string& path, nt::FilmSize size) {
   nt::Limits limits;
   limits.max_width = size.width, limits.max_height = size.height;
   const nt::CaptureSettings settings;
   const nt::test::Block block(nt::Capture::bytes_needed(limits, settings));
   auto made = nt::Capture::create(block.span(), limits, settings, size.width, size.height);
   if (!made.ok()) throw std::runtime_error(made.status().message);
-  std::ifstream file(path, std::ios::binary);
-  std::vector<char> pixels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  nt::FilmReader film(path, size);
   int poses = 0;
-  for (int n = 0; n < kBefore + kCounted; ++n) {
-    if (!file.read(pixels.data(), static_cast<std::streamsize>(pixels.size()))) throw std::runtime_error("cut short");
-    nt::Frame frame;
-    frame.luma = {reinterpret_cast<const uint8_t*>(pixels.data()), size.width, size.height, size.width};
-    frame.sequence = static_cast<uint64_t>(n);
-    frame.timestamp_ns = n * 33'333'333ll;
-    if (n < kBefore) made.value()->step(frame);
+  for (int n = 0; n < nt::kBefore + nt::kCounted; ++n) {
+    const nt::Frame frame = film.next();
+    if (n < nt::kBefore) made.value()->step(frame);
     else poses += counted_step(*made.value(), frame);
   }
   std::printf("poses %d\n", poses);
-  return poses >= kCounted - 1 ? 0 : 1;  // a run without poses would count little
+  return poses >= nt::kCounted - 1 ? 0 : 1;  // a run without poses would count little
 }
 
-int64_t count(const std::string& self, Size size) {
+int64_t count(const std::string& self, nt::FilmSize size) {
   const nt::TempDir folder;
   const std::string path = folder / "film.raw";
-  film(path, size);
+  nt::shoot_film(path, size);
   const std::string command =
       "valgrind --tool=callgrind --callgrind-out-file=/dev/null '--toggle-collect=*counted_step*' '" + self +
       "' --replay '" + path + "' " + std::to_string(size.width) + " " + std::to_string(size.height) + " 2>&1";
@@ -96,7 +70,7 @@ int64_t count(const std::string& self, Size size) {
   const int status = pclose(pipe);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || collected <= 0)
     throw std::runtime_error("valgrind did not count (is it installed?): " + said.substr(0, 300));
-  return collected / kCounted;
+  return collected / nt::kCounted;
 }
 
 std::map<std::string, int64_t> pinned(const std::string& path) {
@@ -136,7 +110,7 @@ int main(int argc, char** argv) try {
   const std::string self = std::filesystem::canonical("/proc/self/exe");
   bool kept = true;
   if (json) std::printf("{\"simd\": \"%s\", \"compiler\": \"g++ %s\"", nt::simd_target(), __VERSION__);
-  for (const Size size : {Size{960, 544}, Size{320, 180}}) {
+  for (const nt::FilmSize size : {nt::FilmSize{960, 544}, nt::FilmSize{320, 180}}) {
     const int64_t counted = count(self, size);
     if (json) std::printf(", \"%s\": %lld", size.name().c_str(), static_cast<long long>(counted));
     else std::printf("%s %lld instructions a frame\n", size.name().c_str(), static_cast<long long>(counted));

@@ -56,7 +56,7 @@ class DrawnCharacter {
     lines_.resize((size_ + kAlignment - 1) / kAlignment);
     std::memcpy(lines_.data(), out.data(), size_);
   }
-  std::span<std::byte> bytes() { return {lines_.data()->bytes, size_}; }
+  std::span<std::byte> bytes() { return {reinterpret_cast<std::byte*>(lines_.data()), size_}; }
   CharacterHeader header() {
     CharacterHeader h;
     std::memcpy(&h, lines_.data(), sizeof h);

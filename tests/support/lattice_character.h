@@ -54,8 +54,7 @@ class LatticeCharacter {
     }
     for (uint32_t v = 0; v < vertices; ++v) slots.push_back(v);
     for (std::size_t k = 0; k < data_.markers.size() + data_.joint_vertex.size(); ++k) {
-      names += "n" + std::to_string(k);
-      names += '\0';
+      names.append("n").append(std::to_string(k)).push_back('\0');
     }
     c.lattice.view = data_.view();
     c.lattice.embedding = {coordinates, tetrahedron};

@@ -48,7 +48,17 @@ Json memory_json(Session& session) {
           {"process_peak_bytes", peak_resident_bytes()}};
 }
 
-// From the camera's timestamp to the motion; null where the run was not paced.
+Json calibration_json(const Calibration& calibration) {
+  if (!calibration.any()) return nullptr;
+  Json json;
+  json["px_per_mm"] = calibration.px_per_mm > 0 ? Json(calibration.px_per_mm) : Json(nullptr);
+  json["scale_from"] = calibration.px_per_mm > 0 ? Json(calibration.scale_from) : Json(nullptr);
+  json["lens"] = calibration.lens.has_value();
+  return json;
+}
+
+}  // namespace
+
 Json latency_json(const TimeHistogram& latency, double fps) {
   if (latency.count() == 0) return nullptr;
   const double frame_ns = 1e9 / fps;
@@ -63,17 +73,6 @@ Json latency_json(const TimeHistogram& latency, double fps) {
           {"p99_frame_times", round3(p99 / frame_ns)},
           {"max_frame_times", round3(most / frame_ns)}};
 }
-
-Json calibration_json(const Calibration& calibration) {
-  if (!calibration.any()) return nullptr;
-  Json json;
-  json["px_per_mm"] = calibration.px_per_mm > 0 ? Json(calibration.px_per_mm) : Json(nullptr);
-  json["scale_from"] = calibration.px_per_mm > 0 ? Json(calibration.scale_from) : Json(nullptr);
-  json["lens"] = calibration.lens.has_value();
-  return json;
-}
-
-}  // namespace
 
 Json stage_times_json(const Statistics& statistics) {
   Json stages;

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "app/actor.h"
-#include "app/observation.h"
 #include "app/session.h"
 #include "app/wardrobe.h"
 
@@ -34,17 +33,17 @@ void add_deformer_options(CLI::App& command, std::optional<MlsKind>& mls, std::o
 // With --max-fish, which is the capture's.
 void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture);
 
-Sighting sighting_of(const FishSeen& fish);
+Sighting sighting_of(Session& session, int fish = Capture::kTarget);  // of the last step
 
 class Cast {
  public:
   // For as many fish as the session follows at a time. Throws UserError.
-  Cast(const CastOptions& options, const Session& session);
+  Cast(const CastOptions& options, Session& session);
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  // What the next step of the session gave.
-  void see(const Observation& seen);
+  // The session has taken a step.
+  void see(Session& session);
   // Poses all at t in (0, 1] between the last two steps; dt_s since the last call.
   void pose(float t, float dt_s, const Pane& pane);
   void draw(Scene& scene) const;

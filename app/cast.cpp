@@ -59,7 +59,7 @@ void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& c
   add_deformer_options(command, options.mls, options.deformer);
 }
 
-Cast::Cast(const CastOptions& options, Session& session)
+Cast::Cast(const CastOptions& options, const Session& session)
     : wardrobe_(options.characters, options.mls, options.deformer, options.renderer_places),
       school_(static_cast<std::size_t>(options.school)),
       delay_frames_(delay_frames(session.info().fps)) {
@@ -83,14 +83,13 @@ Sighting Cast::followed(const Trail& trail, std::size_t place) const {
   return sighting;
 }
 
-Sighting sighting_of(Session& session, int fish) {
-  const Capture& capture = session.capture();
-  if (!capture.pose(fish).ok()) return {};
-  return {true, capture.init_len(fish), capture.motion(fish)};
+Sighting sighting_of(const FishSeen& fish) {
+  if (!fish.pose.ok()) return {};
+  return {true, fish.init_len, fish.motion};
 }
 
-void Cast::see(Session& session) {
-  for (std::size_t i = 0; i < trails_.size(); ++i) trails_[i].add(sighting_of(session, static_cast<int>(i)));
+void Cast::see(const Observation& seen) {
+  for (std::size_t i = 0; i < trails_.size(); ++i) trails_[i].add(sighting_of(seen.fish[i]));
   for (std::size_t i = 0; i < actors_.size(); ++i) actors_[i].see(followed(trails_[i / school_], i % school_));
 }
 

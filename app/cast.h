@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/actor.h"
+#include "app/observation.h"
 #include "app/session.h"
 #include "app/wardrobe.h"
 
@@ -33,17 +34,17 @@ void add_deformer_options(CLI::App& command, std::optional<MlsKind>& mls, std::o
 // With --max-fish, which is the capture's.
 void add_cast_options(CLI::App& command, CastOptions& options, CaptureOptions& capture);
 
-Sighting sighting_of(Session& session, int fish = Capture::kTarget);  // of the last step
+Sighting sighting_of(const FishSeen& fish);
 
 class Cast {
  public:
   // For as many fish as the session follows at a time. Throws UserError.
-  Cast(const CastOptions& options, Session& session);
+  Cast(const CastOptions& options, const Session& session);
   Cast(const Cast&) = delete;
   Cast& operator=(const Cast&) = delete;
 
-  // The session has taken a step.
-  void see(Session& session);
+  // What the next step of the session gave.
+  void see(const Observation& seen);
   // Poses all at t in (0, 1] between the last two steps; dt_s since the last call.
   void pose(float t, float dt_s, const Pane& pane);
   void draw(Scene& scene) const;

@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "app/author/choose_background.h"
+#include "app/picture_copy.h"
 #include "core/segment/clean.h"
 
 namespace nt {
@@ -15,8 +16,6 @@ namespace {
 // Dilation steps, 7 pixels in all: a fish's rim, blurred by the lens, and its thin fins reach beyond the opened mask.
 constexpr int kMargin[] = {1, 2, 4};
 constexpr std::size_t kMostLearned = 15;
-
-std::size_t channels_of(PixelFormat format) { return format == PixelFormat::luma8 ? 1 : 3; }
 
 }  // namespace
 
@@ -115,8 +114,8 @@ void CleanPlate::fill_unknown(int y) {
 
 void CleanPlate::update(const Picture& camera, const BitMask& first, const BitMask& second) {
   if (camera.width != width_ || camera.height != height_ || camera.format == PixelFormat::rgba8) return;
-  if (channels_of(camera.format) != channels_) {
-    channels_ = channels_of(camera.format);
+  if (const auto channels = static_cast<std::size_t>(channels_of(camera.format)); channels != channels_) {
+    channels_ = channels;
     std::fill(known_.begin(), known_.end(), 0);
   }
   merge(first, second);

@@ -20,7 +20,7 @@
 namespace nt {
 namespace {
 
-volatile std::sig_atomic_t stop_asked = 0;
+std::atomic<bool> stop_asked{false};  // free of locks, so a signal may set it
 
 constexpr int kNoCamera = 3;       // exit code
 constexpr int kMarkerFrames = 60;  // the marker must be seen in one of the first so many
@@ -45,24 +45,24 @@ const char* model_name(BackgroundKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-CameraManners manners() {
+CameraManners manners(const std::shared_ptr<std::atomic<bool>>& ending) {
   CameraManners manners;
-  manners.stop = interrupted;
+  manners.stop = [ending] { return interrupted() || *ending; };
   manners.say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   return manners;
 }
 
 }  // namespace
 
-bool interrupted() { return stop_asked != 0; }
+bool interrupted() { return stop_asked; }
 
 void end_on_interrupt() {
-  std::signal(SIGINT, [](int) { stop_asked = 1; });
-  std::signal(SIGTERM, [](int) { stop_asked = 1; });
+  std::signal(SIGINT, [](int) { stop_asked = true; });
+  std::signal(SIGTERM, [](int) { stop_asked = true; });
 }
 
 Session::Session(const CaptureOptions& options)
-    : camera_(open_camera(options.camera, options.work, options.fps, manners())),
+    : camera_(open_camera(options.camera, options.work, options.fps, manners(ending_))),
       frames_wanted_(options.frames),
       stabilise_(options.stabilise) {
   if (info().width < kSmallestSide || info().height < kSmallestSide) {
@@ -209,8 +209,15 @@ void Session::tell_stabilising() {
   told_stabilising_ = true;
 }
 
-bool Session::step(std::optional<int64_t> due_ns) {
-  if (interrupted() || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
+CameraThread& Session::film_on_a_thread(const CameraThread::Settings& settings) {
+  auto thread = std::make_unique<CameraThread>(std::move(camera_), settings);
+  CameraThread& camera = *thread;
+  camera_ = std::move(thread);
+  return camera;
+}
+
+bool Session::step() {
+  if (interrupted() || *ending_ || (frames_wanted_ > 0 && statistics_.frames >= frames_wanted_)) return false;
   const std::optional<Frame> next = camera_->next();
   if (!next) return false;
   // Only now: whatever was wrong with the outputs has had its one line.
@@ -223,8 +230,9 @@ bool Session::step(std::optional<int64_t> due_ns) {
     report_ = capture_->step(frame_, &steady_now_ns);
     if (statistics_.frames > 0) statistics_.allocations_after_frame_0 += heap.allocations();
   }
-  if (info().live) due_ns = camera_->epoch_ns() + frame_.timestamp_ns;
-  if (due_ns) statistics_.latency.add(steady_now_ns() - *due_ns);
+  const int64_t epoch_ns = camera_->epoch_ns();
+  had_ns_ = epoch_ns != 0 ? epoch_ns + frame_.timestamp_ns : 0;
+  if (had_ns_ != 0) statistics_.latency.add(steady_now_ns() - had_ns_);
   statistics_.add(report_);
   for (int i = 0; i < capture_->fish_count(); ++i)
     statistics_.poses_of_fish[static_cast<std::size_t>(i)] += capture_->pose(i).ok();

@@ -4,12 +4,14 @@
 // Opens the camera, chooses the background, cuts core's memory, then hands out one step a frame and keeps count.
 // Frame of reference: pixels of the working frame; `scale()` leads back to the source video.
 #pragma once
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "app/aligned_block.h"
 #include "app/calibration.h"
+#include "app/frame_loop/camera_thread.h"
 #include "app/options.h"
 #include "app/statistics.h"
 #include "core/pipeline/pipeline.h"
@@ -23,15 +25,20 @@ class Session {
   // has chosen.
   explicit Session(const CaptureOptions& options);
 
-  // The next frame goes through capture; false at the end of the video or of --frames, or when the user interrupts.
-  // `due_ns`: when the camera had it, by the steady clock; then the time from there to the motion is counted as latency.
-  bool step(std::optional<int64_t> due_ns = {});
-  // Passes a frame over; the next step counts it as dropped. False at the end.
-  bool skip() { return camera_->next().has_value(); }
+  // From here on the camera films on a thread of its own; it is this session's camera() from then on.
+  CameraThread& film_on_a_thread(const CameraThread::Settings& settings);
+  // From any thread: a step that waits for a live camera ends, and it was the last one.
+  void end_filming() { *ending_ = true; }
+
+  // The next frame goes through capture; false at the end of the video or of --frames, or when the user interrupts. Where the
+  // camera says when it had the frame, the time from there to the motion is counted as latency.
+  bool step();
 
   Camera& camera() { return *camera_; }
   Capture& capture() { return *capture_; }
+  const Capture& capture() const { return *capture_; }
   const Frame& frame() const { return frame_; }         // of the last step
+  int64_t had_ns() const { return had_ns_; }            // when the camera had it, by the steady clock; 0: not known
   const StepReport& report() const { return report_; }  // of the last step
   const Statistics& statistics() const { return statistics_; }
   const CameraInfo& info() const { return camera_->info(); }
@@ -53,11 +60,13 @@ class Session {
   void calibrate(const CaptureOptions& options);
   void tell_stabilising();
 
+  std::shared_ptr<std::atomic<bool>> ending_ = std::make_shared<std::atomic<bool>>(false);
   std::unique_ptr<Camera> camera_;
   AlignedBlock memory_;
   Capture* capture_ = nullptr;  // lives in memory_
   int64_t frames_wanted_ = 0;
   Frame frame_;
+  int64_t had_ns_ = 0;
   StepReport report_;
   Statistics statistics_;
   Stabilise stabilise_ = Stabilise::off;

@@ -13,6 +13,8 @@
 
 namespace nt {
 
+struct TankTruth;
+
 // Thrown by platform and app code; `what()` is the one line for the user: what, where, what to do.
 struct UserError : std::runtime_error {
   int exit_code;  // 1 failed, 2 usage, 3 no camera
@@ -45,8 +47,10 @@ class Camera {
   // Whether next() has something to say at once; false only while a live camera has no frame yet. Asking may end the last
   // frame's pixels (the camera was unplugged), never picture()'s.
   virtual bool ready() { return true; }
-  // Live: when timestamp 0 was, by the steady clock.
+  // When timestamp 0 was, by the steady clock, going by the last frame; 0 where frames are not waited for.
   virtual int64_t epoch_ns() const { return 0; }
+  // Of the simulated tank: what it knows of the last frame, in its own pixels. Null from a camera that films.
+  virtual const TankTruth* truth() { return nullptr; }
   // Why a live camera ended before its time (pulled, silent), one line; empty when it did not. What was filmed until then
   // is kept by whoever films.
   virtual std::string failure() const { return {}; }

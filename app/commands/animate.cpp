@@ -62,11 +62,12 @@ class Stage {
 
   // The frame of the last step, after n in-betweens that lead to it from the frame before.
   void play(Session& session, int n, double fps, Film& film) {
-    cast_.see(session);
-    backdrop_.update(session);
+    const Observation& seen = observer_.look(session, side_by_side_ || backdrop_.watches(), backdrop_.watches());
+    cast_.see(seen);
+    backdrop_.update(seen);
     const float dt_s = static_cast<float>(1.0 / (fps * (n + 1)));
     for (int k = 0; k < n && session.frame_index() > 0; ++k) show(in_between_fraction(k, n), dt_s, film);
-    if (side_by_side_) overlay_.update(session);
+    if (side_by_side_) overlay_.update(seen);
     show(1, dt_s, film);
     if (!cast_.leader().seen()) return;
     const Distortion distortion = cast_.leader().retarget().distortion();
@@ -85,6 +86,7 @@ class Stage {
     film.add(scene_);
   }
 
+  Observer observer_;
   Cast cast_;
   Pane overlay_pane_, actor_pane_;
   Overlay overlay_;

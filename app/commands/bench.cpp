@@ -101,9 +101,10 @@ void bench(const Options& options) {
   const Pane pane = pane_for(session.info().width, session.info().height);
   const auto dt_s = static_cast<float>(1 / session.info().fps / (kInBetweens + 1));
   TimeHistogram retarget, with_inbetweens;
+  Observer observer;
   while (session.step()) {
     if (!actor || session.report().status != PoseStatus::ok) continue;
-    actor->see(sighting_of(session));
+    actor->see(sighting_of(observer.look(session).of_target()));
     const int64_t before_ns = steady_now_ns();
     for (int k = 0; k < kInBetweens; ++k) actor->pose(in_between_fraction(k), dt_s, pane);
     const int64_t last_ns = steady_now_ns();

@@ -12,15 +12,14 @@
 #include "app/export/fish_files.h"
 #include "app/export/pose_csv.h"
 #include "app/export/report.h"
-#include "app/pacer.h"
+#include "app/frame_loop/capture_loop.h"
+#include "app/frame_loop/loop_watch.h"
 #include "app/progress.h"
 #include "app/session.h"
 #include "app/take/from_session.h"
 #include "app/take/take_recording.h"
 #include "app/text_file.h"
 #include "app/ui/overlay.h"
-#include "core/base/hash.h"
-#include "platform/linux/clock.h"
 #include "platform/sim/sim_camera.h"
 
 namespace nt {
@@ -35,15 +34,15 @@ struct Options {
   bool overlay_truth = false;
   bool keep_video = false;
   std::optional<int> max_fish;
+  ThreadPlan threads{};
 };
 
 constexpr int kFishOfAll = 8;
+constexpr std::chrono::milliseconds kLook{50};
 
-SimCamera& simulated(Session& session, const char* option) {
-  auto* sim = dynamic_cast<SimCamera*>(&session.camera());
-  if (sim == nullptr)
+void expect_truth(Session& session, const char* option) {
+  if (dynamic_cast<SimCamera*>(&session.camera()) == nullptr)
     throw UserError(std::string(option) + ": only the simulated tank knows the truth; use --camera sim", 2);
-  return *sim;
 }
 
 void finish(PoseCsv& csv, bool repair) {
@@ -56,7 +55,7 @@ void finish(PoseCsv& csv, bool repair) {
 class Tables {
  public:
   Tables(const Options& options, Session& session) {
-    if (!options.truth.empty()) simulated(session, "--truth");
+    if (!options.truth.empty()) expect_truth(session, "--truth");
     constexpr float kTankScale = 1.0f;  // the tank knows the truth in its own pixels: the source's
     if (options.all) {
       if (!options.csv.empty())
@@ -68,21 +67,12 @@ class Tables {
     }
   }
 
-  void add(Session& session) {
-    const int64_t frame = session.frame_index(), time_ns = session.frame().timestamp_ns;
-    const Capture& capture = session.capture();
-    if (one_) one_->add(frame, time_ns, capture.pose(), capture.order());
-    for (int i = 0; all_ && i < capture.fish_count(); ++i)
-      all_->add(i, frame, time_ns, capture.pose(i), capture.order(i));
-    if (!one_truth_ && !all_truth_) return;
-    const TankTruth& known = *simulated(session, "--truth").truth();
-    FishPose pose = known.pose;
-    if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
-    if (one_truth_) one_truth_->add(frame, time_ns, pose);
-    if (!all_truth_) return;
-    all_truth_->add(0, frame, time_ns, pose);
-    for (int i = 0; i < static_cast<int>(known.others.size()); ++i)
-      all_truth_->add(i + 1, frame, time_ns, known.others[static_cast<std::size_t>(i)]);
+  void add(const Observation& seen) {
+    const int64_t frame = seen.frame_index, time_ns = seen.frame.timestamp_ns;
+    if (one_) one_->add(frame, time_ns, seen.pose(), seen.of_target().order);
+    for (std::size_t i = 0; all_ && i < seen.fish.size(); ++i)
+      all_->add(static_cast<int>(i), frame, time_ns, seen.fish[i].pose, seen.fish[i].order);
+    if (one_truth_ || all_truth_) add_truth(frame, time_ns, *seen.truth);
   }
 
   void close(bool repair) {
@@ -95,6 +85,16 @@ class Tables {
   }
 
  private:
+  void add_truth(int64_t frame, int64_t time_ns, const TankTruth& known) {
+    FishPose pose = known.pose;
+    if (!known.visible && pose.ok()) pose.status = PoseStatus::partial;
+    if (one_truth_) one_truth_->add(frame, time_ns, pose);
+    if (!all_truth_) return;
+    all_truth_->add(0, frame, time_ns, pose);
+    for (std::size_t i = 0; i < known.others.size(); ++i)
+      all_truth_->add(static_cast<int>(i) + 1, frame, time_ns, known.others[i]);
+  }
+
   std::optional<PoseCsv> one_, one_truth_;
   std::optional<FishFiles> all_, all_truth_;
 };
@@ -112,48 +112,91 @@ std::vector<std::string> outputs_of(const Options& options) {
 }
 
 // A row a frame: which pixels were looked at, so that two runs can be told to have seen the same.
-std::string hash_row(const Session& session) {
-  const LumaView& luma = session.frame().luma;
-  uint64_t hash = kHashSeed;
-  for (int y = 0; y < luma.height; ++y) hash = hash_bytes(luma.row(y), static_cast<std::size_t>(luma.width), hash);
+std::string hash_row(const Observation& seen) {
   char row[96];
-  std::snprintf(row, sizeof row, "%lld,%llu,%lld,%016llx\n", static_cast<long long>(session.frame_index()),
-                static_cast<unsigned long long>(session.frame().sequence),
-                static_cast<long long>(session.frame().timestamp_ns), static_cast<unsigned long long>(hash));
+  std::snprintf(row, sizeof row, "%lld,%llu,%lld,%016llx\n", static_cast<long long>(seen.frame_index),
+                static_cast<unsigned long long>(seen.frame.sequence), static_cast<long long>(seen.frame.timestamp_ns),
+                static_cast<unsigned long long>(seen.luma_hash));
   return row;
 }
 
-// Steps through the camera's frames: as fast as can be, or each when a live camera would have it.
-class Pace {
+std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+// All that a run writes, frame by frame on the store thread.
+class Outputs {
  public:
-  Pace(Session& session, bool real_time)
-      : session_(session),
-        real_time_(real_time && !session.info().live),
-        pacer_(static_cast<int64_t>(1e9 / session.info().fps)) {}
-  bool next() {
-    if (!real_time_) return session_.step();
-    if (session_.statistics().frames == 0) pacer_.start(steady_now_ns());
-    sleep_until_ns(pacer_.due_ns());
-    const int64_t now_ns = steady_now_ns();
-    const int64_t due_ns =
-        pacer_.due_ns() + pacer_.skips(now_ns) * pacer_.period_ns();  // of the frame that is not skipped
-    for (int skips = pacer_.take(now_ns); skips > 0; --skips) {
-      if (!session_.skip()) return false;
-    }
-    return session_.step(due_ns);
+  Outputs(const Options& options, Session& session)
+      : options_(options),
+        scale_(session.scale()),
+        tables_(options, session),
+        pane_(pane_for(session.info().width, session.info().height)),
+        film_(options.overlay, options.contact_sheet, pane_.width, pane_.height, session.info().fps),
+        overlay_(pane_) {
+    if (options.overlay_truth) expect_truth(session, "--overlay-truth");
+    if (!options.take.empty())
+      take_.emplace(options.take, take_info(session, take_name(options.take)), options.keep_video);
+    if (!options.frame_hashes.empty()) hashes_.emplace(options.frame_hashes);
+    if (hashes_) hashes_->write("frame,sequence,timestamp_ns,luma_fnv1a64\n");
+  }
+
+  Keep needs() const {
+    Keep keep;
+    keep.contours = film_.wanted();
+    keep.picture = film_.wanted() || take_.has_value();
+    keep.truth = options_.overlay_truth || !options_.truth.empty();
+    keep.luma_hash = hashes_.has_value();
+    return keep;
+  }
+
+  void write(const Observation& seen) {
+    tables_.add(seen);
+    if (take_) take_->add(seen, rows_.read(seen));
+    if (hashes_) hashes_->write(hash_row(seen));
+    if (!film_.wanted() || seen.picture.pixels == nullptr) return;
+    overlay_.update(seen);
+    if (options_.overlay_truth) overlay_.show_truth(*seen.truth, scale_);
+    scene_.clear(pane_.width, pane_.height, {0, 0, 0, 1});
+    overlay_.draw(scene_);
+    film_.add(scene_);
+  }
+  void close_display() { film_.close_display(); }
+
+  void finish() {
+    tables_.close(options_.repair);
+    if (take_) take_->finish(), std::fprintf(stderr, "%s\n", take_->summary().c_str());
+    if (hashes_) hashes_->close();
+    film_.finish();
   }
 
  private:
-  Session& session_;
-  bool real_time_;
-  Pacer pacer_;
+  const Options& options_;
+  float scale_;
+  Tables tables_;
+  Pane pane_;
+  Film film_;
+  Overlay overlay_;
+  Scene scene_;
+  std::optional<TakeRecording> take_;
+  FishRows rows_;
+  std::optional<TextFile> hashes_;
 };
 
-std::string take_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
-void finish(TakeRecording& take) {
-  take.finish();
-  std::fprintf(stderr, "%s\n", take.summary().c_str());
+// Until all frames are stored. How often the machine was slowed down meanwhile.
+Json film(const Options& options, Session& session, Outputs& outputs) {
+  CaptureLoop::Settings settings;
+  settings.pace = options.real_time || session.info().live ? Pace::clock : Pace::every;
+  settings.store = outputs.needs();
+  settings.plan = options.threads;
+  CaptureLoop loop(session, settings,
+                   {[&](const Observation& seen) { outputs.write(seen); }, [&] { outputs.close_display(); }});
+  Progress progress(session.info().frame_count);
+  LoopWatch watch;
+  do {
+    watch.look();
+    progress.show(loop.frames());
+  } while (loop.wait(kLook));
+  loop.finish();
+  return watch.json(loop);
 }
 
 void capture(const Options& options) {
@@ -163,41 +206,15 @@ void capture(const Options& options) {
   CaptureOptions watched = options.capture;
   if (options.all) watched.max_fish = options.max_fish.value_or(kFishOfAll);
   Session session(watched);
-  Tables tables(options, session);
-  std::optional<TakeRecording> take;
-  if (!options.take.empty())
-    take.emplace(options.take, take_info(session, take_name(options.take)), options.keep_video);
-  FishRows rows;
-  std::optional<TextFile> hashes;
-  if (!options.frame_hashes.empty()) hashes.emplace(options.frame_hashes);
-  if (hashes) hashes->write("frame,sequence,timestamp_ns,luma_fnv1a64\n");
-  const Pane pane = pane_for(session.info().width, session.info().height);
-  Film film(options.overlay, options.contact_sheet, pane.width, pane.height, session.info().fps);
-  Overlay overlay(pane);
-  Scene scene;
-  {
-    Progress progress(session.info().frame_count);
-    Pace pace(session, options.real_time);
-    while (pace.next()) {
-      tables.add(session);
-      if (take) take->add(session, rows.read(session));
-      if (hashes) hashes->write(hash_row(session));
-      if (film.wanted()) {
-        overlay.update(session);
-        if (options.overlay_truth) overlay.show_truth(*simulated(session, "--overlay-truth").truth(), session.scale());
-        scene.clear(pane.width, pane.height, {0, 0, 0, 1});
-        overlay.draw(scene);
-        film.add(scene);
-      }
-      progress.show(session.statistics().frames);
-    }
-  }
+  Outputs outputs(options, session);
+  const Json loop = film(options, session, outputs);
   expect_frames(session);
-  tables.close(options.repair);
-  if (take) finish(*take);
-  if (hashes) hashes->close();
-  film.finish();
-  if (!options.json.empty()) write_text(options.json, pretty(report_json(session)));
+  outputs.finish();
+  if (!options.json.empty()) {
+    Json json = report_json(session);
+    json["loop"] = loop;
+    write_text(options.json, pretty(json));
+  }
   std::fprintf(stderr, "%s\n", summary_line(session.statistics()).c_str());
   if (session.statistics().latency.count() > 0)
     std::fprintf(stderr, "%s\n", latency_line(session.statistics(), session.info().fps).c_str());
@@ -249,6 +266,7 @@ void add_capture(CLI::App& app, Action& action) {
   command->add_flag(
       "--real-time", options->real_time,
       "take each frame when a live camera would have it, skip what comes too late, and report the latency");
+  add_thread_options(*command, options->threads);
   command->footer("Example: neontetra capture -c trout.avi --csv trout.csv --overlay trout.mp4 --json -");
   command->callback([&action, options] { action = [options] { capture(*options); }; });
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // neontetra live: a window with the camera's overlay beside (or behind) the character that swims like the fish.
 //
+// Camera, core and store have threads of their own (app/frame_loop); this one draws, and is the only one that asks for things.
 // A camera is shown as its frames come. A file or the tank plays at its own frame rate; frames that come too late are
-// skipped and counted as dropped. A source that decodes slower than that plays as fast as it can (Pacer), and the window
-// still answers.
+// skipped and counted as dropped.
 // The character is drawn between the last two video frames, so it follows the fish by one video frame, never more.
 // Layouts: the camera beside the character; the camera behind it; the character alone, on its backdrop.
 #include <CLI/CLI.hpp>
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,7 +21,8 @@
 #include "app/export/pose_csv.h"
 #include "app/export/recording.h"
 #include "app/export/report.h"
-#include "app/pacer.h"
+#include "app/frame_loop/capture_loop.h"
+#include "app/frame_loop/loop_watch.h"
 #include "app/session.h"
 #include "app/take/from_session.h"
 #include "app/take/take_recording.h"
@@ -52,6 +54,65 @@ struct Options {
   bool keep_video = false;
   std::string json;
   DisplayOptions display;
+  ThreadPlan threads{};
+};
+
+// What is recorded, frame by frame on the store thread; recordings begin and end on the one that draws.
+class LiveStore {
+ public:
+  LiveStore(const Options& options, const Session& session, const std::string& character)
+      : fps_(session.info().fps),
+        past_(static_cast<int>(options.pre_record_s * fps_) * session.capture().fish_count()) {
+    if (options.take.empty()) return;
+    TakeInfo info = take_info(session, std::filesystem::path(options.take).stem().string());
+    info.character = character;
+    take_.emplace(options.take, info, options.keep_video);
+  }
+
+  // The past is kept while nothing is recorded: what a recording holds already does not come into the next one.
+  void write(const Observation& seen) {
+    const std::lock_guard lock(mutex_);
+    const std::span<const TakeFrame> rows = rows_.read(seen);
+    if (take_) take_->add(seen, rows);
+    if (recording_ != nullptr) {
+      recording_->add(seen, rows);
+      return;
+    }
+    for (const TakeFrame& row : rows) past_.add(row);
+  }
+
+  // Null while nothing is recorded. It is made and ended by the thread that draws, so that one may film without a lock.
+  Recording* recording() { return recording_.get(); }
+
+  void begin(const Recording::Settings& settings, const Session& session, const Scene& scene) {
+    const std::lock_guard lock(mutex_);
+    const std::vector<TakeFrame> past = past_.frames();
+    const double past_s = past.empty() ? 0 : static_cast<double>(past.back().frame - past.front().frame + 1) / fps_;
+    recording_ = std::make_unique<Recording>(settings, session, scene, past);
+    past_.clear();
+    std::fprintf(stderr, "recording %s.take (with the last %.1f s), .csv and .mp4\n", recording_->name().c_str(),
+                 past_s);
+  }
+
+  void end() {
+    const std::lock_guard lock(mutex_);
+    recording_->finish();
+    std::fprintf(stderr, "recorded %s\n", recording_->summary().c_str());
+    recording_.reset();
+  }
+
+  void finish() {
+    if (recording_ != nullptr) end();
+    if (take_) take_->finish(), std::fprintf(stderr, "%s\n", take_->summary().c_str());
+  }
+
+ private:
+  double fps_;
+  std::mutex mutex_;  // held while a frame is written
+  FishRows rows_;
+  PreRecord past_;
+  std::optional<TakeRecording> take_;
+  std::unique_ptr<Recording> recording_;
 };
 
 class Live {
@@ -65,31 +126,30 @@ class Live {
         overlay_(camera_pane_),
         backdrop_(options.backdrop, actor_pane_, session_),
         hud_(options.info_text),
-        past_(static_cast<int>(options.pre_record_s * session_.info().fps) * session_.capture().fish_count()),
+        store_(options, session_, cast_.character_name()),
         display_(open_window("neontetra", static_cast<int>(actor_pane_.corner.x) + actor_pane_.width,
                              actor_pane_.height, options.display)),
-        pacer_(static_cast<int64_t>(static_cast<double>(kSecond_ns) / session_.info().fps)) {
+        period_ns_(static_cast<double>(kSecond_ns) / session_.info().fps) {
     measuring_ = options.capture.scale_mm > 0 && !options.capture.scale_points;
-    if (options.take.empty()) return;
-    TakeInfo info = take_info(session_, std::filesystem::path(options.take).stem().string());
-    info.character = cast_.character_name();
-    take_.emplace(options.take, info, options.keep_video);
+    take_place(options.threads, LoopThread::display);
   }
 
   void run() {
+    loop_.emplace(session_, loop_settings(),
+                  CaptureLoop::Store{[this](const Observation& seen) { store_.write(seen); }});
     last_draw_ns_ = steady_now_ns();
-    pacer_.start(last_draw_ns_);
-    while (!quit_ && !interrupted()) {
+    while (!quit_ && !interrupted() && loop_->running()) {
       handle_events();
-      if (!paused_ && frame_due() && !next_frame()) break;
+      while (const Observation* seen = loop_->next_seen()) show(*seen);
       draw();
+      watch_.look();
       service_.alive(last_draw_ns_);
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
-    if (recording_ != nullptr) end_recording();
-    if (take_) take_->finish(), std::fprintf(stderr, "%s\n", take_->summary().c_str());
+    loop_->finish();
+    store_.finish();
     expect_frames(session_);
-    if (!options_.json.empty()) write_text(options_.json, pretty(report_json(session_)));
+    if (!options_.json.empty()) write_report();
     std::fprintf(stderr, "%s; %lld dropped\n", summary_line(session_.statistics()).c_str(),
                  static_cast<long long>(session_.statistics().dropped));
     end_of_frames(session_);
@@ -109,7 +169,7 @@ class Live {
 
   void click(Vec2 at) {
     if (measuring_) measure(to_source(at, session_.scale()));
-    else session_.capture().select_at(at);
+    else loop_->ask([at](Session& session) { session.capture().select_at(at); });
   }
 
   // Two clicks on the ends of a known length: pixels to millimetres.
@@ -139,13 +199,13 @@ class Live {
     switch (key) {
       case ' ':
         paused_ = !paused_;
-        pacer_.start(steady_now_ns());
+        loop_->pause(paused_);
         break;
       case 'b':
-        session_.capture().relearn();
+        loop_->ask([](Session& session) { session.capture().relearn(); });
         break;
       case 'n':
-        session_.capture().select_next();
+        loop_->ask([](Session& session) { session.capture().select_next(); });
         break;
       case 'c':
         cast_.next_character();
@@ -167,55 +227,43 @@ class Live {
   }
 
   void toggle_recording() {
-    if (recording_ != nullptr) {
-      end_recording();
+    if (store_.recording() != nullptr) {
+      store_.end();
       return;
     }
-    const std::vector<TakeFrame> past = past_.frames();
-    const double past_s =
-        past.empty() ? 0 : static_cast<double>(past.back().frame - past.front().frame + 1) / session_.info().fps;
-    recording_ = std::make_unique<Recording>(
-        Recording::Settings{options_.record_to, cast_.character_name(), options_.keep_video}, session_, scene_, past);
-    std::fprintf(stderr, "recording %s.take (with the last %.1f s), .csv and .mp4\n", recording_->name().c_str(),
-                 past_s);
+    compose();  // a recording has the size of what is shown
+    store_.begin({options_.record_to, cast_.character_name(), options_.keep_video}, session_, scene_);
   }
 
-  void end_recording() {
-    recording_->finish();
-    std::fprintf(stderr, "recorded %s\n", recording_->summary().c_str());
-    recording_.reset();
+  CaptureLoop::Settings loop_settings() const {
+    CaptureLoop::Settings settings;
+    settings.pace = Pace::clock;
+    settings.has_display = true;
+    settings.display.contours = settings.display.blobs = settings.display.statistics = true;
+    settings.display.picture = options_.layout != "alone" || backdrop_.watches();
+    settings.display.masks = backdrop_.watches();
+    settings.store.picture = true;  // for a take's thumbnails
+    settings.plan = options_.threads;
+    return settings;
   }
 
-  bool frame_due() { return session_.info().live ? session_.camera().ready() : pacer_.due(steady_now_ns()); }
-
-  bool next_frame() {
-    const int64_t now_ns = steady_now_ns();
-    if (session_.info().live) pacer_.start(now_ns);  // the camera keeps its own pace
-    const int64_t due_ns =
-        pacer_.due_ns() + pacer_.skips(now_ns) * pacer_.period_ns();  // of the frame that is not skipped
-    for (int skips = pacer_.take(now_ns); skips > 0; --skips) {
-      if (!session_.skip()) return false;
-    }
-    if (!session_.step(due_ns)) return false;
-    frame_shown_ns_ = now_ns;
-    cast_.see(session_);
-    if (options_.layout != "alone") overlay_.update(session_, true);
-    backdrop_.update(session_);
-    record();
-    return true;
-  }
-
-  // The past is kept while nothing is recorded: what a recording holds already does not come into the next one.
-  void record() {
-    const std::span<const TakeFrame> rows = rows_.read(session_);
-    if (take_) take_->add(session_, rows);
-    if (recording_ == nullptr) {
-      for (const TakeFrame& row : rows) past_.add(row);
-      return;
-    }
-    past_.clear();
+  void show(const Observation& seen) {
+    shown_ = &seen;
+    fresh_ = true;
+    frame_shown_ns_ = steady_now_ns();
+    cast_.see(seen);
+    if (options_.layout != "alone") overlay_.update(seen, true);
+    backdrop_.update(seen);
+    if (store_.recording() == nullptr) return;
     compose();
-    recording_->add(session_, scene_, rows);
+    store_.recording()->film(seen, scene_);
+  }
+
+  void write_report() {
+    Json json = report_json(session_);
+    json["latency_to_picture"] = latency_json(to_picture_, session_.info().fps);
+    json["loop"] = watch_.json(*loop_);
+    write_text(options_.json, pretty(json));
   }
 
   void compose() {
@@ -229,21 +277,28 @@ class Live {
 
   void draw() {
     const int64_t now_ns = steady_now_ns();
-    const auto part = static_cast<float>(now_ns - frame_shown_ns_) / static_cast<float>(pacer_.period_ns());
+    const auto part = static_cast<float>(static_cast<double>(now_ns - frame_shown_ns_) / period_ns_);
     if (!paused_) {
       cast_.pose(std::clamp(part, 0.01f, 1.0f), static_cast<float>(now_ns - last_draw_ns_) * 1e-9f, actor_pane_);
     }
     last_draw_ns_ = now_ns;
     compose();
     hud_.drawn();
-    if (hud_.due(now_ns)) {
-      hud_.update(now_ns, session_.statistics(),
-                  {std::string(paused_ ? ", paused" : "") + measuring_state() +
-                       (recording_ != nullptr ? ", recording " + recording_->name() : ""),
-                   cast_.character_name(), kKeys});
-    }
+    if (hud_.due(now_ns) && shown_ != nullptr)
+      hud_.update(now_ns, *shown_->statistics, {state(), cast_.character_name(), kKeys, &to_picture_});
     hud_.draw(scene_);
     display_->draw(scene_);
+    if (fresh_ && shown_->had_ns != 0) to_picture_.add(steady_now_ns() - shown_->had_ns);
+    fresh_ = false;
+  }
+
+  std::string state() {
+    const Recording* recording = store_.recording();
+    return std::string(paused_ ? ", paused" : "") + measuring_state() +
+           (recording != nullptr ? ", recording " + recording->name() : "") +
+           (watch_.machine().hot     ? ", slowed down by heat"
+            : watch_.machine().power ? ", power supply too weak"
+                                     : "");
   }
 
   const Options& options_;
@@ -253,19 +308,21 @@ class Live {
   Overlay overlay_;
   Backdrop backdrop_;
   Hud hud_;
-  PreRecord past_;
+  LiveStore store_;
   std::unique_ptr<Display> display_;
-  Pacer pacer_;
+  double period_ns_;  // of the video's frames
   ServiceNotice service_;
+  LoopWatch watch_;
   std::vector<InputEvent> events_;
   Scene scene_;
-  std::unique_ptr<Recording> recording_;
-  std::optional<TakeRecording> take_;
-  FishRows rows_;
+  const Observation* shown_ = nullptr;  // until the next one
+  bool fresh_ = false;                  // and not drawn yet
+  TimeHistogram to_picture_;            // from the camera's timestamp until its frame was drawn
   bool paused_ = false, quit_ = false;
   bool measuring_ = false;  // the next two clicks are the ends of --scale-mm
   std::optional<Vec2> first_end_;
   int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
+  std::optional<CaptureLoop> loop_;  // ends before all that its threads write to
 };
 
 void check(const Options& options) {
@@ -306,6 +363,7 @@ void add_live(CLI::App& app, Action& action) {
     options->has_backdrop = true;
   });
   add_display_options(*command, options->display, true);
+  add_thread_options(*command, options->threads);
   command
       ->add_option_function<std::string>(
           "--info-text",

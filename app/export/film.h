@@ -19,6 +19,8 @@ class Film {
   bool wanted() const { return video_ != nullptr || !sheet_path_.empty(); }
   void add(const Scene& scene, int times = 1);  // shown for so many frames of the video
   void finish();                                // writes what is left; throws UserError
+  // Where another thread finishes: at last on the one that drew, to which the display is bound.
+  void close_display() { display_.reset(); }
   int64_t frames() const { return frames_; }
 
  private:

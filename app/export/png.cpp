@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/export/output_file.h"
+#include "app/picture_copy.h"
 #include "platform/camera.h"
 #include "platform/codecs.h"
 
@@ -11,7 +12,7 @@ namespace nt {
 namespace {
 
 cv::Mat as_opencv(const Picture& picture) {
-  const int channels = picture.format == PixelFormat::luma8 ? 1 : (picture.format == PixelFormat::rgb8 ? 3 : 4);
+  const int channels = channels_of(picture.format);
   // OpenCV's matrix takes no const pixels; they are only read.
   const cv::Mat pixels(picture.height, picture.width, CV_8UC(channels), const_cast<uint8_t*>(picture.pixels),
                        static_cast<std::size_t>(picture.stride));

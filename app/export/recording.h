@@ -19,20 +19,22 @@ class Recording {
     std::string prefix, character;
     bool keep_video = false;
   };
-  Recording(const Settings& settings, Session& session, const Scene& scene, std::vector<TakeFrame> past)
+  Recording(const Settings& settings, const Session& session, const Scene& scene, std::vector<TakeFrame> past)
       : Recording(settings, free_name(settings.prefix), session, scene, std::move(past)) {}
 
   const std::string& name() const { return name_; }
   std::string summary() const { return take_.summary(); }
 
-  // Once a video frame; `rows`: of the take.
-  void add(Session& session, const Scene& scene, std::span<const TakeFrame> rows) {
-    take_.add(session, rows);
-    csv_.add(session.frame_index(), session.frame().timestamp_ns, session.capture().pose(), session.capture().order());
-    // Frames that were dropped are filled, so the video keeps the fish's own speed.
-    const uint64_t sequence = session.frame().sequence;
-    film_.add(scene, last_ < 0 ? 1 : static_cast<int>(static_cast<int64_t>(sequence) - last_));
-    last_ = static_cast<int64_t>(sequence);
+  // Take and table, once a frame; `rows`: of the take. On the thread that stores.
+  void add(const Observation& seen, std::span<const TakeFrame> rows) {
+    take_.add(seen, rows);
+    csv_.add(seen.frame_index, seen.frame.timestamp_ns, seen.pose(), seen.of_target().order);
+  }
+  // The window, once a frame that is shown, on the thread that draws. Frames that were not are filled, so the video keeps the fish's own speed.
+  void film(const Observation& seen, const Scene& scene) {
+    const auto sequence = static_cast<int64_t>(seen.frame.sequence);
+    film_.add(scene, last_ < 0 ? 1 : static_cast<int>(sequence - last_));
+    last_ = sequence;
   }
   void finish() {
     take_.finish();
@@ -42,7 +44,7 @@ class Recording {
   }
 
  private:
-  Recording(const Settings& settings, const std::string& name, Session& session, const Scene& scene,
+  Recording(const Settings& settings, const std::string& name, const Session& session, const Scene& scene,
             std::vector<TakeFrame> past)
       : name_(name),
         take_(name + ".take", described(session, name, settings.character), settings.keep_video, std::move(past)),
@@ -68,7 +70,7 @@ class Recording {
   TakeRecording take_;
   PoseCsv csv_;
   Film film_;
-  int64_t last_ = -1;  // sequence number of the frame added last
+  int64_t last_ = -1;  // sequence number of the frame filmed last
 };
 
 }  // namespace nt

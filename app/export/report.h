@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 inline constexpr int kReportFormat = 1;
 
 Json report_json(Session& session);
+// Of a latency: median, p99 and most in milliseconds and frame times; null where none was measured.
+Json latency_json(const TimeHistogram& latency, double fps);
 Json stage_times_json(const Statistics& statistics);
 std::string pretty(const Json& json);  // indented, with a line end
 

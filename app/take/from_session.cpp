@@ -27,16 +27,16 @@ TakeInfo take_info(const Session& session, const std::string& name) {
   return info;
 }
 
-TakeFrame take_frame(Session& session, int fish) {
-  const Capture& capture = session.capture();
+TakeFrame take_frame(const Observation& seen, int fish) {
+  const FishSeen& of = seen.fish[static_cast<std::size_t>(fish)];
   TakeFrame frame;
-  frame.frame = static_cast<int64_t>(session.frame().sequence);
-  frame.fish = fish == Capture::kTarget ? 0 : fish;
-  frame.flags = session.report().flags;
-  frame.init_len = capture.init_len(fish);
-  frame.motion = capture.motion(fish);
-  frame.pose = capture.pose(fish);
-  frame.motion.time_ns = session.frame().timestamp_ns;
+  frame.frame = static_cast<int64_t>(seen.frame.sequence);
+  frame.fish = fish;
+  frame.flags = seen.report.flags;
+  frame.init_len = of.init_len;
+  frame.motion = of.motion;
+  frame.pose = of.pose;
+  frame.motion.time_ns = seen.frame.timestamp_ns;
   frame.motion.status = frame.pose.status;
   return frame;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/picture_copy.h"
 #include "app/take/from_session.h"
 #include "platform/camera.h"
 
@@ -16,7 +17,7 @@ constexpr const char* kVideoEnding = ".mkv";  // plays up to where it was cut of
 // rgb, packed.
 void copy_rgb(const Picture& picture, std::vector<uint8_t>& rgb) {
   const auto width = static_cast<std::size_t>(picture.width);
-  const std::size_t channels = picture.format == PixelFormat::luma8 ? 1 : (picture.format == PixelFormat::rgb8 ? 3 : 4);
+  const auto channels = static_cast<std::size_t>(channels_of(picture.format));
   rgb.resize(width * static_cast<std::size_t>(picture.height) * 3);
   uint8_t* out = rgb.data();
   for (int y = 0; y < picture.height; ++y) {
@@ -29,17 +30,12 @@ void copy_rgb(const Picture& picture, std::vector<uint8_t>& rgb) {
 
 }  // namespace
 
-std::span<const TakeFrame> FishRows::read(Session& session) {
+std::span<const TakeFrame> FishRows::read(const Observation& seen) {
   rows_.clear();
-  const Capture& capture = session.capture();
-  if (capture.fish_count() == 1) {
-    rows_.push_back(take_frame(session, Capture::kTarget));
-    return rows_;
-  }
-  for (int fish = 0; fish < capture.fish_count(); ++fish) {
+  for (std::size_t fish = 0; fish < seen.fish.size(); ++fish) {
     bool& known = known_[fish];
-    known = known || fish == 0 || capture.pose(fish).ok();
-    if (known) rows_.push_back(take_frame(session, fish));
+    known = known || fish == 0 || seen.fish[fish].pose.ok();
+    if (known) rows_.push_back(take_frame(seen, static_cast<int>(fish)));
   }
   return rows_;
 }
@@ -62,7 +58,7 @@ TakeRecording::TakeRecording(const std::string& path, TakeInfo info, bool keep_v
   recorder_ = std::make_unique<TakeRecorder>(path, info, TakeRecorder::kPeriod_ms, std::move(past));
 }
 
-void TakeRecording::add(Session& session, std::span<const TakeFrame> frames) {
+void TakeRecording::add(const Observation& seen, std::span<const TakeFrame> frames) {
   if (frames.empty()) return;
   if (!origin_) origin_ = frames.front().frame;
   for (TakeFrame frame : frames) {
@@ -70,22 +66,23 @@ void TakeRecording::add(Session& session, std::span<const TakeFrame> frames) {
     last_ = frame.frame, fish_ = std::max(fish_, frame.fish + 1);
     recorder_->add(frame);
   }
-  add_thumbnail(session, last_);
-  add_video(session);
+  if (seen.picture.pixels == nullptr) return;
+  add_thumbnail(seen, last_);
+  add_video(seen);
 }
 
 // One from the beginning, then ever more seldom; of a frame with a pose where one comes soon.
-void TakeRecording::add_thumbnail(Session& session, int64_t number) {
-  const bool posed = session.capture().pose().ok();
+void TakeRecording::add_thumbnail(const Observation& seen, int64_t number) {
+  const bool posed = seen.pose().ok();
   if (number < next_thumbnail_ || (!posed && number < next_thumbnail_ + static_cast<int64_t>(2 * fps_))) return;
-  recorder_->add_thumbnail({number, thumbnail_bmp(session.camera().picture())});
+  recorder_->add_thumbnail({number, thumbnail_bmp(seen.picture)});
   next_thumbnail_ = number + std::max(number / 2, static_cast<int64_t>(fps_));
 }
 
-void TakeRecording::add_video(Session& session) {
+void TakeRecording::add_video(const Observation& seen) {
   if (video_ == nullptr) return;
-  const auto count = static_cast<int64_t>(session.frame().sequence);
-  copy_rgb(session.camera().picture(), rgb_);
+  const auto count = static_cast<int64_t>(seen.frame.sequence);
+  copy_rgb(seen.picture, rgb_);
   for (; next_picture_ <= count - *origin_; ++next_picture_) video_->add(rgb_);
 }
 

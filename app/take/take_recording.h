@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session being recorded into a take: all its fish, thumbnails, and the camera's pictures beside it if asked for.
+// A session being recorded into a take: all its fish, thumbnails, and the camera's pictures beside it if asked for; an observation
+// without picture gives neither thumbnail nor picture.
 //
 // Once a step: add(). Frames are numbered by the camera's own count from the first one on, so a dropped frame leaves a gap and
 // the take keeps the fish's own time. Frames of the past (PreRecord) come first; the video begins with the first step. It
@@ -12,7 +13,7 @@
 #include <vector>
 
 #include "app/export/video_writer.h"
-#include "app/session.h"
+#include "app/observation.h"
 #include "app/take/recorder.h"
 
 namespace nt {
@@ -21,7 +22,7 @@ namespace nt {
 // has had a pose so far. Frame numbers are the camera's count.
 class FishRows {
  public:
-  std::span<const TakeFrame> read(Session& session);
+  std::span<const TakeFrame> read(const Observation& seen);
 
  private:
   bool known_[kMostFish] = {};
@@ -33,15 +34,15 @@ class TakeRecording {
   // Throws UserError when a file cannot be made.
   TakeRecording(const std::string& path, TakeInfo info, bool keep_video, std::vector<TakeFrame> past = {});
 
-  void add(Session& session, std::span<const TakeFrame> frames);  // of the step just taken
-  void finish();                                                  // throws UserError, after all is closed
+  void add(const Observation& seen, std::span<const TakeFrame> frames);  // `frames`: what FishRows read in it
+  void finish();                                                         // throws UserError, after all is closed
   int64_t frames() const { return last_ < first_ ? 0 : last_ - first_ + 1; }
   // "noon.take: 12.3 s, 369 frames, 2 fish, with noon.take.mkv"
   std::string summary() const;
 
  private:
-  void add_thumbnail(Session& session, int64_t number);
-  void add_video(Session& session);
+  void add_thumbnail(const Observation& seen, int64_t number);
+  void add_video(const Observation& seen);
 
   std::string path_, video_name_;
   double fps_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "app/picture_copy.h"
+
 namespace nt {
 namespace {
 
@@ -23,7 +25,7 @@ std::size_t row_bytes(int width) { return (static_cast<std::size_t>(width) * 3 +
 
 // The mean of channel k over columns x0..x1 and rows y0..y1, ends outside.
 uint8_t mean(const Picture& picture, int x0, int x1, int y0, int y1, int k) {
-  const int channels = picture.format == PixelFormat::luma8 ? 1 : (picture.format == PixelFormat::rgb8 ? 3 : 4);
+  const int channels = channels_of(picture.format);
   int64_t sum = 0;
   for (int y = y0; y < y1; ++y) {
     const uint8_t* row = picture.pixels + static_cast<std::ptrdiff_t>(y) * picture.stride;

@@ -77,9 +77,9 @@ Backdrop::Backdrop(const BackdropOption& option, const Pane& pane, Session& sess
   }
 }
 
-void Backdrop::update(Session& session) {
-  if (!plate_) return;
-  plate_->update(session.camera().picture(), session.capture().around_fish(), session.capture().foreground());
+void Backdrop::update(const Observation& seen) {
+  if (!plate_ || seen.picture.pixels == nullptr) return;
+  plate_->update(seen.picture, seen.around_fish, seen.foreground);
   const uint32_t id = picture_.id;
   picture_ = plate_->picture();
   picture_.id = id;

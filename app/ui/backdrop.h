@@ -12,7 +12,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "app/clean_plate.h"
-#include "app/session.h"
+#include "app/observation.h"
 #include "app/ui/colours.h"
 #include "app/ui/pane.h"
 #include "core/scene/scene.h"
@@ -38,8 +38,9 @@ class Backdrop {
   Backdrop(const BackdropOption& option, const Pane& pane, Session& session);
   // Where there is no camera: a colour or a picture.
   Backdrop(const BackdropOption& option, const Pane& pane);
-  Colour colour() const { return colour_; }  // of the canvas
-  void update(Session& session);             // the session has taken a step
+  bool watches() const { return plate_.has_value(); }  // needs the camera's picture, and the masks
+  Colour colour() const { return colour_; }            // of the canvas
+  void update(const Observation& seen);                // of the session's next step
   void draw(Scene& scene) const;
 
  private:

@@ -38,6 +38,14 @@ std::size_t name_length(const std::string& text, std::size_t from) {
 
 }  // namespace
 
+std::string latency_text(const Statistics& statistics, const TimeHistogram* to_picture) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f ms to the pose, %.1f to the picture",
+                statistics.latency.quantile_ns(0.5) * 1e-6,
+                to_picture != nullptr ? to_picture->quantile_ns(0.5) * 1e-6 : 0.0);
+  return text;
+}
+
 void check_info_text(const std::string& text) {
   for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at + 1)) {
     const std::string name = text.substr(at, name_length(text, at));
@@ -55,14 +63,16 @@ Hud::Hud(const std::string& info_text) : info_text_(info_text), text_(kFirstText
 void Hud::update(int64_t now_ns, const Statistics& statistics, const HudFacts& facts) {
   const double seconds = static_cast<double>(now_ns - last_ns_) * 1e-9;
   const auto rate = [&](int64_t count) { return std::to_string(std::lround(static_cast<double>(count) / seconds)); };
-  const std::vector<std::pair<std::string, std::string>> values = {{"%fps", rate(statistics.frames - frames_)},
-                                                                   {"%drawn", rate(drawn_ - drawn_before_)},
-                                                                   {"%dropped", std::to_string(statistics.dropped)},
-                                                                   {"%frame", std::to_string(statistics.frames - 1)},
-                                                                   {"%state", facts.state},
-                                                                   {"%character", facts.character},
-                                                                   {"%times", stage_times(statistics)},
-                                                                   {"%keys", facts.keys}};
+  const std::vector<std::pair<std::string, std::string>> values = {
+      {"%fps", rate(statistics.frames - frames_)},
+      {"%drawn", rate(drawn_ - drawn_before_)},
+      {"%dropped", std::to_string(statistics.dropped)},
+      {"%latency", latency_text(statistics, facts.to_picture)},
+      {"%frame", std::to_string(statistics.frames - 1)},
+      {"%state", facts.state},
+      {"%character", facts.character},
+      {"%times", stage_times(statistics)},
+      {"%keys", facts.keys}};
   std::string text = info_text_;
   for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at)) {
     const std::size_t length = name_length(text, at);

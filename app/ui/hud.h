@@ -13,12 +13,14 @@
 
 namespace nt {
 
-inline constexpr const char* kInfoNames = "%fps %drawn %dropped %frame %state %character %times %keys";
-inline constexpr const char* kDefaultInfo = "%fps frames/s, %drawn drawn/s, %dropped dropped%state\n%times\n%keys";
+inline constexpr const char* kInfoNames = "%fps %drawn %dropped %latency %frame %state %character %times %keys";
+inline constexpr const char* kDefaultInfo =
+    "%fps frames/s, %drawn drawn/s, %dropped dropped, %latency%state\n%times\n%keys";
 
 struct HudFacts {
   std::string state;  // ", paused" and the like
   std::string character, keys;
+  const TimeHistogram* to_picture = nullptr;  // from the camera's timestamp until the window shows the frame
 };
 
 class Hud {
@@ -38,6 +40,9 @@ class Hud {
   bool hidden_ = false;
   int64_t due_ns_ = 0, last_ns_ = 0, frames_ = 0, drawn_ = 0, drawn_before_ = 0;
 };
+
+// %latency: from the camera's timestamp to the pose and to the window, medians. Without a window's figures: null.
+std::string latency_text(const Statistics& statistics, const TimeHistogram* to_picture);
 
 // Throws UserError (exit code 2) for a %name that is not in kInfoNames.
 void check_info_text(const std::string& text);

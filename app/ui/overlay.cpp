@@ -31,36 +31,37 @@ std::string confidences(const PoseConfidence& c) {
 
 }  // namespace
 
-void Overlay::update(Session& session, bool show_blobs) {
-  picture_ = session.camera().picture();
+void Overlay::update(const Observation& seen, bool show_blobs) {
+  picture_ = seen.picture;
   picture_.id = kCameraPicture;
-  picture_.revision = static_cast<uint64_t>(session.statistics().frames);
-  const Capture& capture = session.capture();
-  fish_.resize(static_cast<std::size_t>(capture.fish_count()));
-  for (int i = 0; i < capture.fish_count(); ++i) take_pose(capture, i, fish_[static_cast<std::size_t>(i)]);
+  picture_.revision = static_cast<uint64_t>(seen.frame_index) + 1;
+  fish_.resize(seen.fish.size());
+  for (std::size_t i = 0; i < fish_.size(); ++i) {
+    take_pose(seen.fish[i], fish_[i]);
+    fish_[i].target = static_cast<int>(i) == seen.target;
+  }
   for (std::size_t i = numbers_.size(); fish_.size() > 1 && i < fish_.size(); ++i) {
     numbers_.emplace_back(kFirstNumberPicture + static_cast<uint32_t>(i));
     numbers_.back().set(std::to_string(i + 1));
   }
   blob_corners_.clear();
   truth_.clear();
-  if (show_blobs) take_blobs(session);
-  text_.set("frame " + std::to_string(session.frame_index()) + "  " + to_string(session.report().status) +
-            (session.report().status == PoseStatus::ok ? confidences(session.capture().pose().confidence) : ""));
+  if (show_blobs) take_blobs(seen.blobs);
+  text_.set("frame " + std::to_string(seen.frame_index) + "  " + to_string(seen.report.status) +
+            (seen.report.status == PoseStatus::ok ? confidences(seen.pose().confidence) : ""));
 }
 
 void Overlay::show_truth(const TankTruth& truth, float scale) {
   for (const Vec2 p : truth.midline) truth_.push_back(pane_.to_scene(to_working(p, scale)));
 }
 
-void Overlay::take_pose(const Capture& capture, int fish, Drawn& drawn) const {
-  const FishPose& pose = capture.pose(fish);
+void Overlay::take_pose(const FishSeen& fish, Drawn& drawn) const {
+  const FishPose& pose = fish.pose;
   drawn.seen = pose.ok();
-  drawn.target = fish == capture.target();
   if (!drawn.seen) return;
   const auto at = [this](Vec2 p) { return pane_.to_scene(p); };
   drawn.outline.clear(), drawn.midline.clear(), drawn.fins.clear(), drawn.junctions.clear();
-  for (const Vec2 p : capture.contour(fish)) drawn.outline.push_back(at(p));
+  for (const Vec2 p : fish.contour) drawn.outline.push_back(at(p));
   drawn.midline.push_back(at(pose.head));
   for (int i = pose.u_num - 1; i >= 0; --i) drawn.midline.push_back(at(pose.up_axis[i]));
   drawn.midline.push_back(at(pose.centre));
@@ -80,8 +81,8 @@ void Overlay::take_pose(const Capture& capture, int fish, Drawn& drawn) const {
   drawn.arrow = {from, tip, tip - along * 0.25f + wing, tip, tip - along * 0.25f - wing};
 }
 
-void Overlay::take_blobs(Session& session) {
-  for (const BlobView& blob : session.capture().blobs()) {
+void Overlay::take_blobs(std::span<const BlobView> blobs) {
+  for (const BlobView& blob : blobs) {
     if (blob.selected || blob_corners_.size() >= 4 * kMaxBoxes) continue;
     const Vec2 low = pane_.to_scene({static_cast<float>(blob.box.x0), static_cast<float>(blob.box.y0)});
     const Vec2 high = pane_.to_scene({static_cast<float>(blob.box.x1), static_cast<float>(blob.box.y1)});

@@ -3,11 +3,11 @@
 // (green), junctions (yellow), direction (arrow), other blobs (grey boxes), and a line with frame number and status. Of several fish each has its number;
 // the outline of the target is white, that of the others grey.
 //
-// update() takes a copy of the last step's pose; draw() may then be called any number of times, with the same picture.
+// update() takes a copy of what was seen but its picture; draw() may then be called for as long as that is there.
 #pragma once
 #include <vector>
 
-#include "app/session.h"
+#include "app/observation.h"
 #include "app/ui/pane.h"
 #include "app/ui/text.h"
 #include "core/scene/scene.h"
@@ -18,7 +18,7 @@ namespace nt {
 class Overlay {
  public:
   explicit Overlay(const Pane& pane) : pane_(pane), text_(kFirstTextPicture) {}
-  void update(Session& session, bool show_blobs = false);
+  void update(const Observation& seen, bool show_blobs = false);
   // The true midline of the tank's fish, a thin line; after update(). `scale`: tank pixels a working pixel.
   void show_truth(const TankTruth& truth, float scale);
   void draw(Scene& scene) const;
@@ -30,9 +30,9 @@ class Overlay {
     Vec2 head, tail;
     bool seen = false, target = false;
   };
-  void take_pose(const Capture& capture, int fish, Drawn& drawn) const;
+  void take_pose(const FishSeen& fish, Drawn& drawn) const;
   void draw_fish(const Drawn& drawn, const Text* number, Scene& scene) const;
-  void take_blobs(Session& session);
+  void take_blobs(std::span<const BlobView> blobs);
 
   Pane pane_;
   Picture picture_;

@@ -98,7 +98,7 @@ bool SimCamera::rewind() {
   return true;
 }
 
-const TankTruth* SimCamera::truth(bool with_mask) {
+const TankTruth* SimCamera::truth_with_mask(bool with_mask) {
   return tank_->frame_index() < 0 ? nullptr : &tank_->truth(with_mask);
 }
 

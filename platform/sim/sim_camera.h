@@ -21,8 +21,9 @@ class SimCamera : public Camera {
   void give_chroma() override { with_chroma_ = true; }
   Picture picture() const override;
   bool rewind() override;
-  // Of the frame handed out last, in pixels of the tank; null before the first. Mask and contour only when asked for.
-  const TankTruth* truth(bool with_mask = false);
+  const TankTruth* truth() override { return truth_with_mask(false); }
+  // With mask and contour, which cost time.
+  const TankTruth* truth_with_mask(bool with_mask = true);
 
  private:
   LumaView shrunk(const LumaView& luma);

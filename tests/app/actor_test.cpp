@@ -20,8 +20,9 @@ TEST(Actor, AppearsWhereTheFishIsAfterAGap) {
   const Pane pane = pane_for(480, 272);
   bool seen = false;
   int missed = 0;
+  Observer observer;
   for (int i = 0; i < 900 && session.step(); ++i) {
-    actor.see(sighting_of(session));
+    actor.see(sighting_of(observer.look(session).of_target()));
     actor.pose(1, 1 / 30.0f, pane);
     const bool ok = session.report().status == PoseStatus::ok;
     if (ok && seen && missed > 15) {

@@ -69,6 +69,7 @@ TEST(Backdrop, ABrokenPictureIsOneLine) {
 TEST(Backdrop, TheCamerasPictureHasNoFish) {
   Session session(tank());
   Backdrop backdrop({BackdropOption::Kind::camera, kWater, ""}, pane_for(320, 180), session);
+  Observer observer;
   ASSERT_TRUE(session.step());
   const Picture first = session.camera().picture();  // the fish is not there yet
   const std::vector<uint8_t> empty(first.pixels,
@@ -76,7 +77,7 @@ TEST(Backdrop, TheCamerasPictureHasNoFish) {
   double with = 0, without = 0;
   int poses = 0;
   do {
-    backdrop.update(session);
+    backdrop.update(observer.look(session, true, true));
     if (session.report().status != PoseStatus::ok) continue;
     ++poses;
     Scene scene;

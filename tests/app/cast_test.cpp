@@ -41,12 +41,13 @@ Vec2 mean(std::span<const Vec2> points) {
 
 TEST(Cast, ASchoolFollowsOneAfterTheOtherAndKeepsApart) {
   Session session(tank());
+  Observer observer;
   Cast cast(cast_of({kCarp}, 4), session);
   const Pane pane = pane_for(480, 272);
   int first_seen[5] = {-1, -1, -1, -1, -1};
   Scene scene;
   for (int n = 0; n < 200 && session.step(); ++n) {
-    cast.see(session);
+    cast.see(observer.look(session));
     cast.pose(1, 1 / 30.0f, pane);
     scene.clear(pane.width, pane.height, kWater);
     cast.draw(scene);
@@ -66,11 +67,12 @@ TEST(Cast, EveryFishHasItsDrawing) {
   options.camera = parse_camera_spec("sim:scene=crossing,seed=1,size=480x272");
   options.max_fish = 2;
   Session session(options);
+  Observer observer;
   Cast cast(cast_of({kCarp, kCarp}), session);
   const Pane pane = pane_for(480, 272);
   int most = 0;
   for (int n = 0; n < 300 && most < 2 && session.step(); ++n) {
-    cast.see(session);
+    cast.see(observer.look(session));
     cast.pose(1, 1 / 30.0f, pane);
     Scene scene;
     scene.clear(pane.width, pane.height, kWater);
@@ -85,11 +87,12 @@ TEST(Cast, EveryFishHasItsDrawing) {
 
 TEST(Cast, TheNextCharacterTakesOverInPlace) {
   Session session(tank());
+  Observer observer;
   Cast cast(cast_of({kCarp, kCarp}), session);
   const Pane pane = pane_for(480, 272);
-  while (!cast.leader().seen() && session.step()) cast.see(session);
+  while (!cast.leader().seen() && session.step()) cast.see(observer.look(session));
   for (int n = 0; n < 10 && session.step(); ++n) {
-    cast.see(session);
+    cast.see(observer.look(session));
     cast.pose(1, 1 / 30.0f, pane);
   }
   const Vec2 before = mean(cast.leader().retarget().vertices());
@@ -110,6 +113,7 @@ TEST(Cast, TheNextCharacterTakesOverInPlace) {
 TEST(Cast, NothingIsAllocatedAfterTheFirstFrame) {
   if (!heap_count_available()) GTEST_SKIP() << "allocations cannot be counted in this build";
   Session session(tank());
+  Observer observer;
   Cast cast(cast_of({kCarp, kCarp}, 3), session);
   const Pane pane = pane_for(480, 272);
   Backdrop backdrop({BackdropOption::Kind::camera, kWater, ""}, pane, session);
@@ -118,8 +122,8 @@ TEST(Cast, NothingIsAllocatedAfterTheFirstFrame) {
   for (int n = 0; n < 150 && session.step(); ++n) {
     (void)session.camera().picture();  // may make the picture: the camera's business
     const HeapCount heap;
-    cast.see(session);
-    backdrop.update(session);
+    cast.see(observer.look(session));
+    backdrop.update(observer.look(session, true, true));
     if (n % 40 == 20) cast.next_character();
     for (const float t : {0.5f, 1.0f}) cast.pose(t, 1 / 60.0f, pane);
     scene.clear(pane.width, pane.height, backdrop.colour());

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "platform/camera.h"
 
 namespace nt {
@@ -50,6 +52,19 @@ TEST(Hud, LinesSitAtTheLowerEdge) {
   };
   EXPECT_FLOAT_EQ(top("one") - top("one\\ntwo\\nthree"), 40);
   EXPECT_GT(top("%frame"), 320);
+}
+
+TEST(Hud, TheLatencyIsTheMediansOfBoth) {
+  Statistics statistics;
+  TimeHistogram to_picture;
+  EXPECT_EQ(latency_text(statistics, nullptr), "0.0 ms to the pose, 0.0 to the picture");
+  for (int i = 0; i < 3; ++i) statistics.latency.add(5'000'000), to_picture.add(16'000'000);
+  double pose_ms = 0, picture_ms = 0;  // to 2.2 %
+  ASSERT_EQ(std::sscanf(latency_text(statistics, &to_picture).c_str(), "%lf ms to the pose, %lf to the picture",
+                        &pose_ms, &picture_ms),
+            2);
+  EXPECT_NEAR(pose_ms, 5, 0.2);
+  EXPECT_NEAR(picture_ms, 16, 0.5);
 }
 
 TEST(Hud, UnknownNamesAreRefused) {

@@ -24,8 +24,9 @@ TEST(SwimmingLattice, SurvivesTheTurns) {
   for (std::size_t i = 0; i < wardrobe.size(); ++i) actors.push_back(std::make_unique<Actor>(wardrobe, i));
   const Pane pane = pane_for(480, 272);
   int poses = 0;
+  Observer observer;
   for (int n = 0; n < 700 && session.step(); ++n) {
-    const Sighting sighting = sighting_of(session);
+    const Sighting sighting = sighting_of(observer.look(session).of_target());
     poses += sighting.seen;
     for (std::size_t i = 0; i < actors.size(); ++i) {
       actors[i]->see(sighting);

@@ -74,12 +74,12 @@ TEST(SimCamera, TruthFollowsTheFrames) {
   Vec2 first, last;
   for (int n = 0; n < 60; ++n) {
     ASSERT_TRUE(camera->next());
-    const TankTruth* truth = camera->truth(n == 59);
+    const TankTruth* truth = camera->truth_with_mask(n == 59);
     ASSERT_NE(truth, nullptr);
     (n == 0 ? first : last) = truth->pose.centre;
   }
   EXPECT_GT(length(last - first), 0);
-  const TankTruth* truth = camera->truth(true);
+  const TankTruth* truth = camera->truth_with_mask();
   ASSERT_EQ(truth->mask.size(), 320u * 240u);
   EXPECT_GT(std::count(truth->mask.begin(), truth->mask.end(), 255), 100);
 }

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thousand cameras that each fail in some way: no crash, nothing leaked, and a line for whatever ends a recording.
+// A thousand recordings, of cameras that each fail in some way or on a disk that fills up: no crash, nothing leaked, a line for
+// whatever ends one, and nothing lost that is older than a second.
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <random>
 
+#include "app/take/recorder.h"
+#include "tests/platform/camera/full_disk.h"
 #include "tests/platform/camera/open_fake.h"
+#include "tests/support/temp_dir.h"
 
 namespace nt {
 namespace {
@@ -136,10 +143,66 @@ struct Outcome {
   int frames = 0;
   std::string line;  // why it ended early
   std::string warning;
+  std::string disk;  // what the recording said
 };
 
-Outcome film(FakeVideo& video, const V4l2Settings& settings, Said& said) {
+// Where frames are recorded; each carries the moment at which it came.
+struct Disk {
+  std::string path;
+  std::unique_ptr<test::FullDisk> full;  // null: large enough
+  std::unique_ptr<TakeRecorder> recorder;
+};
+
+constexpr int kPeriod_ms = 2;  // short, so that the disk fills up at any moment
+constexpr int64_t kSecond_ns = 1'000'000'000;
+
+int64_t real_now_ns() { return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1); }
+
+// Two of three recordings find room enough. An empty file takes some 100,000 bytes.
+void plan_disk(Plan& plan, Disk& disk) {
+  if (plan.pick(3) == 0) {
+    const int bytes = plan.pick(400'000);
+    plan.what += "; the disk is full after " + std::to_string(bytes) + " bytes";
+    disk.full = std::make_unique<test::FullDisk>(bytes);
+  }
+}
+
+// "" where it went well.
+std::string finish_recording(Disk& disk) {
+  std::string line;
+  try {
+    if (disk.recorder) disk.recorder->finish();
+  } catch (const UserError& error) {
+    line = error.what();
+  }
+  disk.recorder.reset();
+  return line;
+}
+
+// All that was recorded is there, but for a last second where the disk was full.
+void expect_kept(Disk& disk, const Outcome& outcome, const std::vector<int64_t>& came_ns, int64_t end_ns) {
+  disk.full.reset();
+  if (came_ns.empty()) return;
+  const std::vector<TakeFrame> kept = Take::open(disk.path, Take::Access::read).frames(0);
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].motion.time_ns, came_ns[i]);
+  if (outcome.disk.empty()) {
+    EXPECT_EQ(kept.size(), came_ns.size());
+  }
+  if (kept.size() < came_ns.size()) {
+    EXPECT_LT(end_ns - came_ns[kept.size()], kSecond_ns);
+  }
+}
+
+TakeFrame row(int64_t number) {
+  TakeFrame frame;
+  frame.frame = number;
+  frame.motion.time_ns = real_now_ns();
+  return frame;
+}
+
+Outcome film(FakeVideo& video, const V4l2Settings& settings, Said& said, Disk* disk = nullptr) {
   Outcome outcome;
+  std::vector<int64_t> came_ns;
   try {
     const std::unique_ptr<Camera> camera = open_fake(video, settings, &said);
     if (settings.mains == Mains::hz50) camera->give_chroma();
@@ -160,6 +223,10 @@ Outcome film(FakeVideo& video, const V4l2Settings& settings, Said& said) {
       }
       EXPECT_GT(sum, 0u);
       if (outcome.frames % 7 == 0) (void)camera->picture();
+      if (disk == nullptr || disk->recorder == nullptr) continue;
+      const TakeFrame frame_row = row(outcome.frames);
+      disk->recorder->add(frame_row);
+      came_ns.push_back(frame_row.motion.time_ns);
     }
     outcome.line = camera->failure();
     outcome.warning = camera->warning();
@@ -168,11 +235,29 @@ Outcome film(FakeVideo& video, const V4l2Settings& settings, Said& said) {
     EXPECT_EQ(error.exit_code, 3);
     EXPECT_EQ(outcome.frames, 0);  // later on, what was filmed is kept
   }
+  if (disk == nullptr) return outcome;
+  const int64_t end_ns = real_now_ns();
+  outcome.disk += finish_recording(*disk);
+  expect_kept(*disk, outcome, came_ns, end_ns);
   return outcome;
 }
 
+// A disk without room for an empty take says so before the camera is opened.
+std::string begin_recording(Disk& disk) {
+  TakeInfo info;
+  info.name = "fake", info.camera = "v4l2:/dev/video0", info.created = "2026-11-22T09:30:00Z";
+  info.source_width = info.width = 64, info.source_height = info.height = 48, info.fps = 30;
+  try {
+    disk.recorder = std::make_unique<TakeRecorder>(disk.path, info, kPeriod_ms);
+    return "";
+  } catch (const UserError& error) {
+    return error.what();
+  }
+}
+
 TEST(V4l2Failures, AThousandAtRandom) {
-  int ended = 0, absorbed = 0, never_opened = 0;
+  if (access("/dev/shm", W_OK) == 0) setenv("TMPDIR", "/dev/shm", 1);  // in memory: each file is synchronised often
+  int ended = 0, absorbed = 0, never_opened = 0, filled = 0;
   for (uint32_t seed = 0; seed < 1000; ++seed) {
     Plan plan{std::mt19937(seed), ""};
     FakeVideo video;
@@ -188,9 +273,21 @@ TEST(V4l2Failures, AThousandAtRandom) {
       default:
         plan_event(plan, video);
     }
+    const TempDir folder;
+    Disk disk{folder / "fake.take", nullptr, nullptr};
+    plan_disk(plan, disk);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + plan.what);
     Said said;
-    const Outcome outcome = film(video, settings, said);
+    const bool small = disk.full != nullptr;
+    const std::string refused = begin_recording(disk);
+    const Outcome outcome = film(video, settings, said, refused.empty() ? &disk : nullptr);
+    for (const std::string& line : {refused, outcome.disk}) {
+      if (line.empty()) continue;
+      ++filled;
+      EXPECT_TRUE(small) << line;
+      EXPECT_NE(line.find("fake.take: the disk is full"), std::string::npos) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos);
+    }
     EXPECT_EQ(video.open_files, 0);
     EXPECT_EQ(video.mappings, 0);
     EXPECT_LT(video.calls_made, 20'000);
@@ -207,7 +304,9 @@ TEST(V4l2Failures, AThousandAtRandom) {
   EXPECT_GT(absorbed, 200);
   EXPECT_GT(ended, 50);
   EXPECT_GT(never_opened, 100);
-  std::printf("%d ridden out, %d ended with a line, %d refused with a line\n", absorbed, ended, never_opened);
+  EXPECT_GT(filled, 50);
+  std::printf("%d ridden out, %d ended with a line, %d refused with a line; %d disks were full\n", absorbed, ended,
+              never_opened, filled);
 }
 
 TEST(V4l2Failures, DamagedPicturesAreCountedAndPassedOver) {

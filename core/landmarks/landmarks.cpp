@@ -21,7 +21,11 @@ constexpr int kArcReach = 4;          // points: a ragged rim is not longer than
 constexpr float kBeforeTail = 0.7f;   // of a bent fish's axis: from here its tail fin is looked at
 constexpr int kPeduncle = kStations * 5 / 6;
 constexpr float kThin_px = 4.0f;  // half-width there, up to which the outline may have lost the last of the tail
-constexpr int kRounds = 2;        // of centring
+// Half-width in the middle of the rear, of the length, up to which a notched tail is no fin but noise: a larva has 0.017,
+// the tank's fish 0.03.
+constexpr float kSlender = 0.026f;
+constexpr int kRear = kStations * 5 / 8;
+constexpr int kRounds = 2;  // of centring
 // The part of the axis at either end that is drawn straight on to the outline.
 constexpr float kHeadTrim = 0.09f, kTailTrim = 0.05f;
 
@@ -39,6 +43,7 @@ struct LandmarksImpl final : Landmarks {
   bool found = false;
 
   bool find_outline(std::span<const Vec2> points, const LandmarkHints& hints, FishPose& pose);
+  bool has_thin_tail(const StationValues& body, bool notched, float usual_length) const;
   bool decide_order(const LandmarkHints& hints);
   void measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body, FishPose& pose) const;
   void sample_axis(Vec2 barycentre, FishPose& pose) const;
@@ -63,6 +68,11 @@ bool LandmarksImpl::decide_order(const LandmarkHints& hints) {
   was_swapped = !hints.last.empty() && first != (same_way >= 0);
   step = {kRepeatedEvidence * (first ? evidence : -evidence), first ? same_way : -same_way};
   return first;
+}
+
+bool LandmarksImpl::has_thin_tail(const StationValues& body, bool notched, float usual_length) const {
+  const bool slender = body[kRear] < kSlender * det::max(axis.length, usual_length);
+  return body[kPeduncle] < kThin_px && (slender || !notched);
 }
 
 void LandmarksImpl::measure_fins(std::span<const Vec2> c, Stretch right, const StationValues& body,
@@ -135,7 +145,8 @@ bool LandmarksImpl::find_outline(std::span<const Vec2> points, const LandmarkHin
     axis = extended_to_outline(centred(axis, widths, body), c, drawn);
   }
   measure_fins(c, right, body, pose);
-  if (!drawn.notched && body[kPeduncle] < kThin_px) axis = followed_tail(axis, hints.luma, hints.ground);
+  if (has_thin_tail(body, drawn.notched, hints.usual_length))
+    axis = followed_tail(axis, hints.luma, hints.ground, hints.usual_length);
 
   sample_axis(moments.centroid, pose);
   pose.head = axis.points[0], pose.tail = axis.points[kStations - 1];

@@ -30,6 +30,7 @@ struct LandmarkHints {
   float head_log_odds = 0;  // belief so far that last.front() really is the head (natural log of odds)
   float trust = 1;          // 0..1, in `last`: less after a gap
   Vec2 travel;              // displacement of the centre over the last frames, pixels; 0 when at rest
+  float usual_length = 0;   // of the axis, pixels; 0 when unknown
   LumaView luma, ground;    // the picture and what it would be without the fish; without data when unknown
 };
 

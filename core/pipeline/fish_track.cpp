@@ -213,6 +213,7 @@ LandmarkHints FishTrack::hints(const CaptureTools& tools, const Swimmer& swimmer
   hints.head_log_odds = head_log_odds_;
   hints.trust = 1.0f - static_cast<float>(frames_without_pose_) / (kForgetOrder + 1);
   hints.travel = has_last_ ? travel_ : swimmer.velocity * kTravelFrames;
+  if (has_last_) hints.usual_length = whole_len_;
   hints.luma = tools.frame.luma, hints.ground = tools.background.estimate();
   return hints;
 }

@@ -13,7 +13,7 @@ namespace {
 
 Json times_us(const TimeHistogram& times) {
   const auto us = [&](double q) { return std::round(times.quantile_ns(q) / 10.0) / 100.0; };
-  return {{"median", us(0.5)}, {"p99", us(0.99)}};
+  return {{"median", us(0.5)}, {"p99", us(0.99)}, {"p999", us(0.999)}};
 }
 
 Json status_counts(const Statistics& statistics) {

@@ -66,6 +66,8 @@ TEST(EndToEnd, TankPosesMatchTheTruthInTheSameColumns) {
   EXPECT_GT(report["frames_with_pose"], 200);
   EXPECT_EQ(report["status"]["ok"], report["frames_with_pose"]);
   EXPECT_GT(report["stages_us"]["background"]["median"], 0);
+  EXPECT_GT(report["stages_us"]["total"]["p99"], report["stages_us"]["total"]["median"]);
+  EXPECT_GE(report["stages_us"]["total"]["p999"], report["stages_us"]["total"]["p99"]);
   EXPECT_LE(report["memory"]["core_bytes"], 16'000'000);
   if (!report["allocations_after_frame_0"].is_null()) {
     EXPECT_EQ(report["allocations_after_frame_0"], 0);

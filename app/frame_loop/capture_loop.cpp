@@ -62,7 +62,7 @@ void CaptureLoop::hand_on() {
     }
   }
   if (!stored_.add(seen, settings_.store)) ++not_stored_;
-  if (settings_.has_display && !display_.add(seen, settings_.display)) ++not_shown_;
+  if (settings_.has_display && !display_.add_newest(seen, settings_.display)) ++not_shown_;
 }
 
 void CaptureLoop::store() {

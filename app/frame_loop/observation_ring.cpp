@@ -11,7 +11,16 @@ bool ObservationRing::add(const Observation& seen, const Keep& what) {
   slot->has_pixels = pixels != nullptr;
   if (pixels != nullptr) pixels_.push();
   seen_.push();
+  last_has_pixels_ = pixels != nullptr;
   return true;
+}
+
+bool ObservationRing::add_newest(const Observation& seen, const Keep& what) {
+  if (add(seen, what)) return true;
+  if (!seen_.take_back()) return false;
+  if (last_has_pixels_) pixels_.take_back();
+  add(seen, what);
+  return false;
 }
 
 const Observation* ObservationRing::next() {

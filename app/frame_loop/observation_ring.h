@@ -16,6 +16,8 @@ class ObservationRing {
 
   // Of the writer. False when the ring is full. A picture that finds no place is left out.
   bool add(const Observation& seen, const Keep& what);
+  // In place of the last one where the ring is full: then false.
+  bool add_newest(const Observation& seen, const Keep& what);
   bool wait_free(std::chrono::milliseconds most) { return seen_.wait_free(most); }
   bool wait_picture_free(std::chrono::milliseconds most) { return pixels_.wait_free(most); }
 
@@ -34,7 +36,8 @@ class ObservationRing {
   };
   Ring<Slot> seen_;
   Ring<std::vector<uint8_t>> pixels_;
-  Slot* held_ = nullptr;
+  Slot* held_ = nullptr;          // the reader's
+  bool last_has_pixels_ = false;  // the writer's
 };
 
 }  // namespace nt

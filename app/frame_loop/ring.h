@@ -25,6 +25,13 @@ class Ring {
     return written_ - read_ < slots_.size() ? &slots_[written_ % slots_.size()] : nullptr;
   }
   void push() { change(written_); }
+  // The slot pushed last is free again; false where the reader may look at it.
+  bool take_back() {
+    const std::lock_guard lock(mutex_);
+    if (written_ - read_ < 2) return false;
+    --written_;
+    return true;
+  }
 
   // Of the reader: the oldest slot; null when there is none.
   T* oldest() {

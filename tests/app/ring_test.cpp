@@ -37,6 +37,22 @@ TEST(Ring, ASlotThatIsLookedAtIsNotWrittenTo) {
   EXPECT_EQ(*seen, 7);
 }
 
+TEST(Ring, WhatWasPushedLastCanBeTakenBackUnlessItIsLookedAt) {
+  Ring<int> ring(2);
+  *ring.free_slot() = 1;
+  ring.push();
+  EXPECT_FALSE(ring.take_back());
+  *ring.free_slot() = 2;
+  ring.push();
+  EXPECT_EQ(*ring.oldest(), 1);
+  ASSERT_TRUE(ring.take_back());
+  *ring.free_slot() = 3;
+  ring.push();
+  EXPECT_EQ(*ring.oldest(), 1);
+  ring.pop();
+  EXPECT_EQ(*ring.oldest(), 3);
+}
+
 TEST(Ring, BetweenTwoThreadsNothingIsLostAndNothingChangesPlaces) {
   constexpr int kCount = 20'000;
   Ring<int> ring(4);

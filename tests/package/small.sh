@@ -11,6 +11,11 @@ apt-get install -y -qq --no-install-recommends /package.deb >apt.txt 2>&1 || { c
 neontetra --version
 neontetra doctor || fail "doctor"
 neontetra doctor --json >doctor.json 2>/dev/null || fail "doctor --json"
+case $(dpkg --print-architecture) in
+  amd64) simd=SSSE3 ;;
+  *) simd=NEON ;;
+esac
+grep -A 3 '"simd"' doctor.json | grep -q "\"$simd\"" || fail "doctor: not built for $simd"
 neontetra capture --camera sim:scene=ghost,frames=60 --background vibe --csv fish.csv || fail "capture"
 rows=$(($(wc -l <fish.csv) - 1)) poses=$(grep -c ',ok,' fish.csv)
 [ "$rows" = 60 ] && [ "$poses" -gt 30 ] || fail "capture: $rows rows, $poses poses"

@@ -22,6 +22,8 @@ for file in man/man1/neontetra.1.gz bash-completion/completions/neontetra zsh/ve
   [ -s "/usr/share/$file" ] || fail "/usr/share/$file is not there"
 done
 [ -s /usr/lib/systemd/system/neontetra-kiosk.service ] || fail "no service"
+apt-get install -y -qq --no-install-recommends systemd >apt.txt 2>&1 || { tail -40 apt.txt; fail "systemd"; }
+systemd-analyze verify --man=no neontetra-kiosk.service || fail "systemd-analyze finds fault with the service"
 apt-get purge -y -qq neontetra >/dev/null 2>&1 || fail "apt-get purge"
 left=$(find /usr /etc /var/lib -path '*neontetra*' -not -path '/var/lib/apt/*')
 [ -z "$left" ] || fail "left behind: $left"

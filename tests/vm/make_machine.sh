@@ -14,7 +14,7 @@ if [[ $1 == --once ]]; then  # unless it is there already, made by the same file
 fi
 folder=$(realpath -m "${1:?make_machine.sh FOLDER}")
 # The kernel modules that the machine may load; these, and what they depend on, are kept.
-modules="virtio_pci 9pnet_virtio 9p vivid uvcvideo dummy_hcd gadgetfs virtio-gpu"
+modules="virtio_pci 9pnet_virtio 9p vivid uvcvideo dummy_hcd gadgetfs virtio-gpu overlay"
 boot_modules="virtio_pci 9pnet_virtio 9p"  # before there is a root file system
 packages=$(sed 's/#.*//' "$here/packages.txt" | xargs)
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""screenshot.py SOCKET PICTURE.ppm DONE: what the machine's screen shows, once it shows the drawing; then makes the file DONE.
+"""screenshot.py SOCKET PICTURE.ppm DONE SECONDS: what the machine's screen shows, once it shows the drawing; then makes the file DONE.
 
 Asks QEMU (QMP) every two seconds. The drawing is there when the right half has the carp's orange and the left half the
-aquarium's picture: a black screen and one of a console have neither. Exit 1 after two minutes without it.
+aquarium's picture: a black screen and one of a console have neither. Exit 1 after SECONDS without it.
 """
 import json
 import pathlib
@@ -49,12 +49,12 @@ def counts(path):
     return orange, lit, width, height
 
 
-def main(address, picture, done):
+def main(address, picture, done, seconds):
     monitor = connect(address)
     monitor.readline()
     ask(monitor, "qmp_capabilities")
     seen = (0, 0, 0, 0)
-    for _ in range(60):
+    for _ in range(int(seconds) // 2):
         time.sleep(2)
         if not ask(monitor, "screendump", filename=picture):
             continue

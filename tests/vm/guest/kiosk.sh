@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# The kiosk as systemd starts it: on the screen, under a user of its own; one that hangs and one that dies are started again.
+fail() {
+  echo "FAILED: $*"
+  journalctl -u neontetra-kiosk --no-pager -o cat | tail -40
+  systemctl status neontetra-kiosk --no-pager | head -20
+  exit 1
+}
+show() { systemctl show -P "$1" neontetra-kiosk; }
+# runs: waits until it has said that it is ready, as another process than $pid.
+runs() {
+  for _ in $(seq 1200); do
+    [[ $(show ActiveState) == active && $(show MainPID) != "$pid" ]] && break
+    sleep 0.1
+  done
+  [[ $(show ActiveState) == active ]] || fail "$1"
+  pid=$(show MainPID)
+}
+pid=0
+runs "the kiosk does not start"
+owner=$(stat -c %u "/proc/$pid")
+# systemd.exec(5): what DynamicUser= takes a user from.
+((owner >= 61184 && owner <= 65519)) || fail "its user is $owner"
+for _ in $(seq 1800); do [[ -e /mnt/kiosk.shot ]] && break || sleep 0.1; done
+[[ -e /mnt/kiosk.shot ]] || fail "the host sees no picture"
+kill -KILL "$pid"
+runs "a kiosk that was killed does not start again"
+kill -STOP "$pid"
+runs "a kiosk that hangs is not started again"
+journalctl -u neontetra-kiosk --no-pager -o cat >/mnt/kiosk.txt
+grep -q "Watchdog timeout" /mnt/kiosk.txt || fail "the watchdog has not barked"
+grep -q "display: SDL2 screen (KMS), " /mnt/kiosk.txt || fail "its line about the screen is missing"
+(($(show NRestarts) == 2)) || fail "restarted $(show NRestarts) times, not 2"
+echo "kiosk: user $owner, started again after a kill and after it hung"

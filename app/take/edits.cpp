@@ -144,7 +144,7 @@ void change(const Edit& edit, const Motion& rest, Clip& clip) {
       repair(m, first, last, value);
       break;
     case Kind::trim:
-      m = std::vector<Motion>(m.begin() + edit.first, m.begin() + edit.last + 1);
+      m = std::vector<Motion>(m.begin() + first, m.begin() + last + 1);
       break;
     case Kind::loop:
       clip.seam = make_loop(m, first, last, static_cast<std::size_t>(edit.value));

@@ -54,8 +54,10 @@ Moments::Range range_of(const EditedTake& take, const Moments& moments) {
   return range;
 }
 
-void cut(Filled& filled, Moments::Range range) {
-  filled.motions = {filled.motions.begin() + range.first, filled.motions.begin() + range.last + 1};
+template <class T>
+std::vector<T> cut(const std::vector<T>& frames, Moments::Range range) {
+  const auto first = static_cast<std::ptrdiff_t>(range.first), last = static_cast<std::ptrdiff_t>(range.last);
+  return {frames.begin() + first, frames.begin() + last + 1};
 }
 
 Seam close(Filled& filled, Moments::Range range, double fps) {
@@ -96,8 +98,8 @@ Performance performance(const EditedTake& take, const Moments& moments) {
   result.fps = moments.rate.value_or(recorded_fps);
   result.loop = moments.loop;
   if (moments.loop) result.seam = close(filled, range, recorded_fps);
-  else cut(filled, range);
-  filled.seen = {filled.seen.begin() + range.first, filled.seen.begin() + range.last + 1};
+  else filled.motions = cut(filled.motions, range);
+  filled.seen = cut(filled.seen, range);
   const double step = recorded_fps * moments.speed / result.fps;  // recorded frames a drawn one
   const auto count = static_cast<double>(filled.motions.size());
   const double drawn =

@@ -98,14 +98,14 @@ void TakeRecorder::finish() {
 
 void PreRecord::add(const TakeFrame& frame) {
   if (ring_.empty()) return;
-  ring_[count_ % ring_.size()] = frame;
+  ring_[static_cast<std::size_t>(count_ % ring_.size())] = frame;
   ++count_;
 }
 
 std::vector<TakeFrame> PreRecord::frames() const {
   std::vector<TakeFrame> frames;
   const uint64_t held = std::min<uint64_t>(count_, ring_.size());
-  for (uint64_t i = count_ - held; i < count_; ++i) frames.push_back(ring_[i % ring_.size()]);
+  for (uint64_t i = count_ - held; i < count_; ++i) frames.push_back(ring_[static_cast<std::size_t>(i % ring_.size())]);
   return frames;
 }
 

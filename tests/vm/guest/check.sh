@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sourced by the guest's scripts: the program, and checks that say what went wrong.
-cd /mnt
-mkdir -p /run/lib && cp neontetra ./*.so /run/lib/  # a run path of its own: not that of the machine it was built on
+mkdir -p /run/lib && cp /mnt/neontetra /mnt/*.so /run/lib/  # a run path of its own: not that of the machine it was built on
+# Results go to memory first: a write to the host's folder waits for the host, and a camera does not.
+mkdir -p /run/seen
+cd /run/seen
+trap 'cp -r /run/seen/. /mnt/' EXIT
 neontetra() { LD_LIBRARY_PATH=/run/lib /run/lib/neontetra "$@"; }
 fail() {
   echo "FAILED: $*"

@@ -3,7 +3,7 @@
 . /mnt/check.sh
 v4l2-ctl -d0 -c loop_video=1,osd_text_mode=2
 v4l2-ctl -d1 -x width=1280,height=720,pixelformat=YUYV
-cp large/clip.yuyv /run/
+cp /mnt/large/clip.yuyv /run/
 v4l2-ctl -d1 --stream-out-mmap=4 --stream-from=/run/clip.yuyv --stream-loop --stream-count=600 >/dev/null 2>&1 &
 player=$!
 sleep 1

@@ -4,7 +4,7 @@ start_usb_camera() {
   echo -1 >/sys/module/usbcore/parameters/autosuspend
   mkdir -p /dev/gadget
   mount -t gadgetfs gadget /dev/gadget || fail "no gadgetfs"
-  cp small/clip.yuyv usb_camera /run/
+  cp /mnt/small/clip.yuyv /mnt/usb_camera /run/
   /run/usb_camera 480 272 5 /run/clip.yuyv &
   camera=$!
   for _ in $(seq 100); do [[ -e /dev/video0 ]] && break || sleep 0.1; done

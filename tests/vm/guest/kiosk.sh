@@ -2,18 +2,18 @@
 # The kiosk as systemd starts it: on the screen, under a user of its own; one that hangs and one that dies are started again.
 fail() {
   echo "FAILED: $*"
-  journalctl -u neontetra-kiosk --no-pager -o cat | tail -40
-  systemctl status neontetra-kiosk --no-pager | head -20
+  systemctl list-jobs --no-pager
+  journalctl --no-pager -o cat | tail -60
   exit 1
 }
 show() { systemctl show -P "$1" neontetra-kiosk; }
 # runs: waits until it has said that it is ready, as another process than $pid.
 runs() {
-  for _ in $(seq 1200); do
-    [[ $(show ActiveState) == active && $(show MainPID) != "$pid" ]] && break
-    sleep 0.1
+  local until=$((SECONDS + 120))
+  until [[ $(show ActiveState) == active && $(show MainPID) != "$pid" ]]; do
+    ((SECONDS < until)) || fail "$1"
+    sleep 0.5
   done
-  [[ $(show ActiveState) == active ]] || fail "$1"
   pid=$(show MainPID)
 }
 pid=0

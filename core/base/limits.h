@@ -15,7 +15,7 @@ struct Limits {
   int max_control_points = 64;      // of a character
   int max_vertices = 8192;          // of a character
   int max_triangles = 16384;        // of a character
-  int max_lattice_vertices = 2000;  // of a control lattice; 0.6 KB each (core/deform/lattice.h)
+  int max_lattice_vertices = 2000;  // of a control lattice; 0.55 KB each (core/deform/lattice.h)
 };
 
 }  // namespace nt

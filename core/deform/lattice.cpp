@@ -42,7 +42,7 @@ void Lattice::lay_out(Arena& arena) {
   if (view_.form == LatticeForm::stacked) h_ = take4(arena, n_);
   columns_ = arena.take<float>(9 * 4 * blocks + 4);
   q_ = arena.take_raw<Quat4>(blocks);
-  edges_ = take4(arena, view_.neighbours.size());
+  rest_ = take4(arena, n_);
   markers_ = arena.take<Marker>(view_.markers.size());
   on_bone_ = arena.take<uint8_t>(n_);
   pose_ = arena.take<Vec3>(n_);
@@ -70,11 +70,7 @@ Result<Lattice*> Lattice::create(Arena& arena, const LatticeView& view, const La
   if (arena.full()) return Status{StatusCode::out_of_memory, "not enough memory for the lattice"};
   lattice->diagonal_ = diagonal_of(view.vertices);
   for (std::size_t i = 0; i < lattice->n_; ++i) {
-    for (uint32_t p = view.neighbour_start[i]; p < view.neighbour_start[i + 1]; ++p) {
-      const Vec3 e = view.vertices[i] - view.vertices[view.neighbours[p]];
-      const float w = view.weights[p];
-      lattice->edges_[p] = make4(w * e.x, w * e.y, w * e.z, w);
-    }
+    lattice->rest_[i] = to4(view.vertices[i]);
     lattice->pose_[i] = view.vertices[i];
   }
   for (Quat4& q : lattice->q_) q = {splat4(1.0f), splat4(0.0f), splat4(0.0f), splat4(0.0f)};
@@ -193,12 +189,14 @@ bool Lattice::factorise() {
     factor_.add_diagonal(b, w_d2);
     factor_.add(a, b, -w_d2);
   });
-  return factor_.factorise();
+  return factor_.factorise(b_);
 }
 
 // S of four vertices (core/deform/rotations.h), and b = -L x on the way.
 Matrix4x Lattice::gather_block(std::size_t block) {
-  const float* x = x_.data();
+  const float *x = x_.data(), *weights = view_.weights.data();
+  const uint16_t* neighbours = view_.neighbours.data();
+  const Float4* rest = rest_.data();
   Float4 s[3][4];
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const std::size_t i = 4 * block + lane;
@@ -207,13 +205,14 @@ Matrix4x Lattice::gather_block(std::size_t block) {
       continue;
     }
     Float4 sx = splat4(0.0f), sy = sx, sz = sx, sum = sx;
-    const Float4 here = load4(x + 3 * i);
+    const Float4 here = load4(x + 3 * i), rest_here = rest[i];
     for (uint32_t p = view_.neighbour_start[i]; p < view_.neighbour_start[i + 1]; ++p) {
-      const Float4 e = here - load4(x + 3 * view_.neighbours[p]), rest = edges_[p];
-      sx += broadcast4<0>(rest) * e;
-      sy += broadcast4<1>(rest) * e;
-      sz += broadcast4<2>(rest) * e;
-      sum += broadcast4<3>(rest) * e;
+      const std::size_t j = neighbours[p];
+      const Float4 e = splat4(weights[p]) * (here - load4(x + 3 * j)), from = rest_here - rest[j];
+      sx += broadcast4<0>(from) * e;
+      sy += broadcast4<1>(from) * e;
+      sz += broadcast4<2>(from) * e;
+      sum += e;
     }
     s[0][lane] = sx, s[1][lane] = sy, s[2][lane] = sz;
     b_[i] = splat4(0.0f) - sum;
@@ -250,21 +249,29 @@ void Lattice::turn_vertices() {
   }
 }
 
-// b += Delta, so that b = Delta - L x.
+// b += Delta, so that b = Delta - L x. What edge ij adds to i it takes from j.
 void Lattice::sum_shape() {
-  const float* columns = columns_.data();
+  const float *columns = columns_.data(), *weights = view_.weights.data();
+  const uint16_t* neighbours = view_.neighbours.data();
+  const Float4* rest = rest_.data();
+  Float4* b = b_.data();
   const Float4 half = splat4(0.5f);
   for (std::size_t i = 0; i < n_; ++i) {
-    Float4 sum = splat4(0.0f), own = sum;
-    for (uint32_t p = view_.neighbour_start[i]; p < view_.neighbour_start[i + 1]; ++p) {
-      const float* r = columns + 9 * view_.neighbours[p];
-      const Float4 rest = edges_[p];
-      sum += broadcast4<0>(rest) * load4(r) + broadcast4<1>(rest) * load4(r + 3) + broadcast4<2>(rest) * load4(r + 6);
-      own += rest;
-    }
     const float* r = columns + 9 * i;
-    sum += broadcast4<0>(own) * load4(r) + broadcast4<1>(own) * load4(r + 3) + broadcast4<2>(own) * load4(r + 6);
-    b_[i] += half * sum;
+    const Float4 x = load4(r), y = load4(r + 3), z = load4(r + 6), rest_here = rest[i];
+    Float4 sum = splat4(0.0f);
+    const uint32_t first = view_.neighbour_start[i];
+    for (uint32_t p = view_.neighbour_start[i + 1]; p-- > first;) {
+      const std::size_t j = neighbours[p];
+      if (j < i) break;
+      const float* other = columns + 9 * j;
+      const Float4 e = splat4(weights[p]) * (half * (rest_here - rest[j]));
+      const Float4 pull = broadcast4<0>(e) * (x + load4(other)) + broadcast4<1>(e) * (y + load4(other + 3)) +
+                          broadcast4<2>(e) * (z + load4(other + 6));
+      sum += pull;
+      b[j] -= pull;
+    }
+    b[i] += sum;
   }
 }
 
@@ -274,7 +281,7 @@ void Lattice::stack_shape() {
   for (std::size_t i = 0; i < n_; ++i) {
     Float4 sum = splat4(0.0f);
     for (uint32_t p = view_.neighbour_start[i]; p < view_.neighbour_start[i + 1]; ++p) {
-      sum += broadcast4<3>(edges_[p]) * (h_[i] - h_[view_.neighbours[p]]);
+      sum += splat4(view_.weights[p]) * (h_[i] - h_[view_.neighbours[p]]);
     }
     b_[i] = sum;
   }

@@ -2,42 +2,12 @@
 #include "core/deform/lattice_view.h"
 
 #include <algorithm>
-#include <bit>
+
+#include "core/deform/bit_table.h"
+#include "core/deform/elimination_order.h"
 
 namespace nt {
 namespace {
-
-// A square table of bits, one row a vertex.
-class BitTable {
- public:
-  BitTable(Arena& arena, std::size_t n) : n_(n), words_((n + 63) / 64), bits_(arena.take<uint64_t>(n * words_)) {}
-  bool ok() const { return bits_.size() == n_ * words_; }
-  void set(std::size_t r, std::size_t c) { bits_[r * words_ + c / 64] |= uint64_t{1} << (c % 64); }
-  void clear(std::size_t r, std::size_t c) { bits_[r * words_ + c / 64] &= ~(uint64_t{1} << (c % 64)); }
-  bool at(std::size_t r, std::size_t c) const { return (bits_[r * words_ + c / 64] >> (c % 64) & 1) != 0; }
-  void add_row(std::size_t to, std::size_t from) {
-    for (std::size_t k = 0; k < words_; ++k) bits_[to * words_ + k] |= bits_[from * words_ + k];
-  }
-  std::size_t count(std::size_t r) const {
-    std::size_t sum = 0;
-    for (std::size_t k = 0; k < words_; ++k) sum += static_cast<std::size_t>(std::popcount(bits_[r * words_ + k]));
-    return sum;
-  }
-  // Calls f(column) for every bit of a row, rising. f may change other rows.
-  template <class F>
-  void each(std::size_t r, F f) const {
-    for (std::size_t k = 0; k < words_; ++k) {
-      for (uint64_t word = bits_[r * words_ + k]; word != 0; word &= word - 1) {
-        f(k * 64 + static_cast<std::size_t>(std::countr_zero(word)));
-      }
-    }
-  }
-  std::size_t size() const { return n_; }
-
- private:
-  std::size_t n_, words_;
-  std::span<uint64_t> bits_;
-};
 
 void add_tetrahedra(BitTable& table, std::span<const uint16_t> tetrahedra) {
   for (std::size_t t = 0; t + 3 < tetrahedra.size(); t += 4) {
@@ -61,15 +31,6 @@ void add_second_ring(const BitTable& edges, BitTable& both) {
 
 bool indices_below(std::span<const uint16_t> indices, std::size_t limit) {
   return std::all_of(indices.begin(), indices.end(), [&](uint16_t i) { return i < limit; });
-}
-
-// Joins the neighbours of v with each other and takes v out of the graph; its row then is its factor column.
-void eliminate(BitTable& graph, std::size_t v) {
-  graph.each(v, [&](std::size_t j) {
-    graph.add_row(j, v);
-    graph.clear(j, j);
-    graph.clear(j, v);
-  });
 }
 
 // Adds l cot(alpha) of each tetrahedron to the weight of the opposite edge: alpha is the dihedral angle at the edge of
@@ -145,18 +106,7 @@ bool elimination_order(Arena& scratch, std::size_t vertices, std::span<const uin
     add_second_ring(graph, both);
     graph = both;
   }
-  const auto degree = scratch.take<uint32_t>(vertices);
-  if (degree.size() != vertices) return false;
-  for (std::size_t v = 0; v < vertices; ++v) degree[v] = static_cast<uint32_t>(graph.count(v));
-  constexpr uint32_t kGone = 0xffffffffu;
-  for (std::size_t k = 0; k < vertices; ++k) {
-    const auto v = static_cast<std::size_t>(std::min_element(degree.begin(), degree.end()) - degree.begin());
-    place[k] = static_cast<uint16_t>(v);
-    eliminate(graph, v);
-    graph.each(v, [&](std::size_t j) { degree[j] = static_cast<uint32_t>(graph.count(j)); });
-    degree[v] = kGone;
-  }
-  return true;
+  return smallest_factor_order(scratch, graph, place);
 }
 
 Result<LatticeView> derive_lattice(Arena& out, Arena& scratch, std::span<const Vec3> vertices,

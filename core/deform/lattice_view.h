@@ -70,9 +70,8 @@ struct LatticeView {
 // Six times the volume, positive if d lies on the side of abc that the right-hand rule a, b, c points to.
 inline float volume6(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return dot(cross(b - a, c - a), d - a); }
 
-// The pattern of a lattice in whatever order, and the order of least fill-in.
-// place[k] = the vertex that is eliminated k-th (minimum degree, exact, ties by number).
-// Scratch: vertices^2 / 8 bytes. Cost: about a millisecond for 1,000 vertices; off the frame path.
+// The order of least fill-in (core/deform/elimination_order.h): place[k] = the vertex that is eliminated k-th.
+// Scratch: 3/8 vertices^2 bytes. Off the frame path.
 bool elimination_order(Arena& scratch, std::size_t vertices, std::span<const uint16_t> tetrahedra, LatticeForm form,
                        std::span<uint16_t> place);
 

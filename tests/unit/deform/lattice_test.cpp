@@ -26,13 +26,15 @@ LatticeSettings converged_settings() {
 }
 
 TEST(LatticeTest, MemoryIsWhatWasCounted) {
-  const LatticeData small = small_bar(), large = bar(40, 3, 4, 8);
+  const LatticeData small = small_bar(), large = bar(40, 3, 4, 8), thick = large_bar();
   ASSERT_GE(small.vertices.size(), 430u);
   ASSERT_GE(large.vertices.size(), 1000u);
+  ASSERT_GE(thick.vertices.size(), 1000u);
   Solver solver(small);
   EXPECT_EQ(solver.bytes(), solver.used());
   EXPECT_LE(Lattice::bytes_needed(small.view()), 256u * 1024u);
   EXPECT_LE(Lattice::bytes_needed(large.view()), 640u * 1024u);
+  EXPECT_LE(Lattice::bytes_needed(thick.view()), 640u * 1024u);
 }
 
 TEST(LatticeTest, TooLittleMemoryIsAnError) {

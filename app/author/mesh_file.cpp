@@ -20,6 +20,7 @@
 #include <set>
 
 #include "app/author/mesh_soup.h"
+#include "app/codecs/gltf_check.h"
 #include "platform/camera.h"
 #include "platform/sim/quiet_stderr.h"
 
@@ -103,6 +104,7 @@ const aiScene* Reader::import() {
   if (error) throw UserError("cannot read the mesh " + path_ + ": no such file, or no right to read it");
   if (size > kMostBytes) throw UserError(path_ + ": more than 256 MB; reduce the mesh first");
   if (lower(path_).ends_with(".ply")) check_ply(path_, size);
+  check_gltf(path_);
   importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = nullptr;
   try {

@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "app/codecs/gltf_check.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -39,6 +40,7 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above
 }  // namespace
 
 TriangleMesh read_triangles_file(const std::string& path) {
+  check_gltf(path);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/codecs/gltf_check.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -29,6 +30,7 @@ class JointReader {
     const uintmax_t size = std::filesystem::file_size(path_, error);
     if (error) throw UserError("cannot read " + path_ + "; is the name right?");
     if (size > kMostBytes) throw UserError(path_ + ": more than 256 MB is no skeleton");
+    check_gltf(path_);
     const aiScene& scene = import();
     find_bones(*scene.mRootNode, {}, scene);
     if (bones_.empty() && scene.mNumMeshes > 0) throw UserError(path_ + " has no skin, so it has no joints");

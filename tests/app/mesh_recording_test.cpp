@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -14,6 +15,7 @@
 #include <sstream>
 
 #include "app/author/skeleton_file.h"
+#include "app/author/triangle_mesh.h"
 #include "core/base/random.h"
 #include "platform/camera.h"
 #include "tests/app/mesh_text.h"
@@ -132,6 +134,106 @@ TEST(SkeletonFile, ABvhGivesItsJointsByItsOffsets) {
   EXPECT_EQ(skeleton.joints[2].parent, 1);
   EXPECT_LT(length(skeleton.joints[1].position - Vec3{1, -2, 3}), 1e-5f);
   EXPECT_LT(length(skeleton.joints[2].position - Vec3{1, -5, 4}), 1e-5f);
+}
+
+template <class T>
+void put(std::string& bytes, std::initializer_list<T> values) {
+  for (const T v : values) bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+}
+
+std::string glb_of(std::string json, const std::string& binary) {
+  while (json.size() % 4 != 0) json += ' ';
+  std::string out = "glTF";
+  const auto size = [](const std::string& s) { return static_cast<uint32_t>(s.size()); };
+  put<uint32_t>(out, {2, 28 + size(json) + size(binary), size(json)});
+  out += "JSON" + json;
+  put<uint32_t>(out, {size(binary), 0x004e4942});
+  return out + binary;
+}
+
+// A leg: two triangles on three joints, one above the other.
+const char* const kLegJson =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,3]}],"nodes":[{"name":"hip","children":[1]},)"
+    R"({"name":"knee","translation":[0,1,0],"children":[2]},{"name":"foot","translation":[0,1,0]},{"name":"leg","mesh":0,"skin":0}],)"
+    R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"indices":3}]}],)"
+    R"("skins":[{"joints":[0,1,2],"inverseBindMatrices":4,"skeleton":0}],"buffers":[{"byteLength":332}],"bufferViews":[)"
+    R"({"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":16},)"
+    R"({"buffer":0,"byteOffset":64,"byteLength":64},{"buffer":0,"byteOffset":128,"byteLength":12},)"
+    R"({"buffer":0,"byteOffset":140,"byteLength":192}],"accessors":[)"
+    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,2,0]},)"
+    R"({"bufferView":1,"componentType":5121,"count":4,"type":"VEC4"},{"bufferView":2,"componentType":5126,"count":4,"type":"VEC4"},)"
+    R"({"bufferView":3,"componentType":5123,"count":6,"type":"SCALAR"},{"bufferView":4,"componentType":5126,"count":3,"type":"MAT4"}]})";
+
+std::string leg_binary() {
+  std::string b;
+  put<float>(b, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 0});
+  put<uint8_t>(b, {0, 1, 0, 0, 1, 2, 0, 0, 2, 0, 0, 0, 0, 1, 2, 0});
+  put<float>(b, {.5f, .5f, 0, 0, .5f, .5f, 0, 0, 1, 0, 0, 0, .4f, .3f, .3f, 0});
+  put<uint16_t>(b, {0, 1, 2, 1, 2, 3});
+  for (const float height : {0.0f, 1.0f, 2.0f}) put<float>(b, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -height, 0, 1});
+  return b;
+}
+
+// The file with some of its numbers, bytes or its length changed.
+std::string damaged_leg(Random& random) {
+  const auto below = [&](std::size_t n) { return random.below(static_cast<uint32_t>(n)); };
+  std::string json = kLegJson, binary = leg_binary();
+  const uint32_t kind = random.below(4), changes = 1 + random.below(4);
+  const char* const numbers[] = {"-1", "0", "3", "99", "65535", "4294967295", "1e99", "null", "\"x\"", "[]", "5126"};
+  for (uint32_t k = 0; k < changes && kind == 0; ++k) {
+    std::size_t at = below(json.size());
+    while (at < json.size() && (std::isdigit(json[at]) == 0 || json[at - 1] == '_')) ++at;
+    if (at < json.size()) json.replace(at, 1, numbers[below(std::size(numbers))]);
+  }
+  for (uint32_t k = 0; k < changes && kind == 1; ++k) json[below(json.size())] = static_cast<char>(random.below(256));
+  for (uint32_t k = 0; k < changes && kind == 2; ++k)
+    binary[below(binary.size())] = static_cast<char>(random.below(256));
+  std::string glb = glb_of(json, binary);
+  for (uint32_t k = 0; k < changes && kind == 3; ++k) glb[below(24)] = static_cast<char>(random.below(256));
+  if (kind == 3 && changes > 2) glb.resize(below(glb.size()));
+  return glb;
+}
+
+std::string refusal_of(const std::string& path) {
+  try {
+    EXPECT_GE(read_skeleton(path).joints.size(), 2u);
+  } catch (const UserError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SkeletonFile, DamagedSkinsAreReadOrRefusedWithOneLine) {
+  const TempDir dir;
+  const std::string path = dir / "leg.glb";
+  std::ofstream(path, std::ios::binary) << glb_of(kLegJson, leg_binary());
+  ASSERT_EQ(read_skeleton(path).joints.size(), 3u);
+  EXPECT_LT(length(read_skeleton(path).joints[2].position - Vec3{0, 2, 0}), 1e-5f);
+  Random random(6);
+  int refused = 0, rounds = 600;
+  for (int round = 0; round < rounds; ++round) {
+    std::ofstream(path, std::ios::binary) << damaged_leg(random);
+    refused += !refusal_of(path).empty();
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_LT(refused, rounds - 100);
+}
+
+// What Assimp crashes on, or reads for minutes, as a skeleton and as a mesh.
+TEST(SkeletonFile, WhatTheReaderWouldTrustIsLookedAtFirst) {
+  const TempDir dir;
+  const std::string path = dir / "leg.glb";
+  std::string json = kLegJson;
+  json.replace(json.find("\"inverseBindMatrices\":4,"), 24, "");
+  std::ofstream(path, std::ios::binary) << glb_of(json, leg_binary());
+  EXPECT_NE(refusal_of(path).find("inverseBindMatrices"), std::string::npos);
+  EXPECT_THROW(read_triangles(path), UserError);
+  std::string glb = glb_of(kLegJson, leg_binary());
+  glb[15] = '\x70';
+  std::ofstream(path, std::ios::binary) << glb;
+  EXPECT_NE(refusal_of(path).find("cut short"), std::string::npos);
+  EXPECT_THROW(read_triangles(path), UserError);
 }
 
 // Bytes changed and cut at random: joints or one line.

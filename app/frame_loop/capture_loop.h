@@ -4,9 +4,10 @@
 //   camera thread -> 4 frames -> core thread -> 4 observations   -> display (the caller's thread)
 //                                            -> 256 observations -> store thread
 //
-// Pace `clock`: nobody waits for whoever comes after him. A display that is slow misses observations, and what waits for it last is always the newest; a store that is
-// slow for longer than the ring is deep loses frames, which are counted; capture notices neither. Pictures go to the store in a ring
-// of their own, of four: the first thing that a slow disk loses is pictures, not poses.
+// Pace `clock`: nobody waits for whoever comes after him. A display that is slow misses observations, and what waits for it
+// last is always the newest; a store that is slow for longer than the ring is deep loses frames, which are counted; capture
+// notices neither. Pictures go to the store in a ring of their own, of four: the first thing that a slow disk loses is pictures,
+// not poses.
 // Pace `every` (files, as fast as can be): nothing is lost, each waits for the next.
 // Errors: what is thrown on any of the threads ends the loop and comes out of finish().
 #pragma once

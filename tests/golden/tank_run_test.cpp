@@ -23,8 +23,8 @@ struct Golden {
 constexpr Golden kGolden[] = {
     {"calm", nt::BackgroundKind::vibe, 300, 960, 544, "cc2e7b030ce71d83", "f26fa4a16acb3103", "71a465a27bd2b68e",
      "501492d54c0c33c1"},
-    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "a5e5df789a03b76d", "1326aeda64c50961",
-     "e0011ebedc6cc4c1"},
+    {"calm", nt::BackgroundKind::vibe, 10000, 320, 180, "6430d7fd48b2bb7d", "a5e5df789a03b76d", "54d12bbf1684af3c",
+     "8182266541713f27"},
     {"shadow", nt::BackgroundKind::vibe, 120, 960, 544, "b4391060a1d89061", "82ca4a31949a75f5", "35d5635dbdf23e8f",
      "faf797e364851a48"},
     {"night", nt::BackgroundKind::vibe, 120, 960, 544, "31753c3abef4667d", "15f5c18139272f45", "ceb5430d8a9dce55",

@@ -35,3 +35,7 @@ elseif(NEONTETRA_SANITIZE STREQUAL "thread")
   add_compile_options(-fsanitize=thread)
   add_link_options(-fsanitize=thread)
 endif()
+if(NEONTETRA_SANITIZE)
+  # A sanitizer calls dlopen in the program's place, so only the old kind of run path, which holds for all, finds modules.
+  add_link_options(-Wl,--disable-new-dtags)
+endif()

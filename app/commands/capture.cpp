@@ -157,7 +157,9 @@ class Outputs {
     if (options_.overlay_truth) overlay_.show_truth(*seen.truth, scale_);
     scene_.clear(pane_.width, pane_.height, {0, 0, 0, 1});
     overlay_.draw(scene_);
-    film_.add(scene_);
+    // A frame whose picture found no place in the ring is stood for by the next one, so that the film keeps its pace.
+    film_.add(scene_, static_cast<int>(seen.frame_index - filmed_));
+    filmed_ = seen.frame_index;
   }
   void close_display() { film_.close_display(); }
 
@@ -179,6 +181,7 @@ class Outputs {
   std::optional<TakeRecording> take_;
   FishRows rows_;
   std::optional<TextFile> hashes_;
+  int64_t filmed_ = -1;  // the last frame of the film
 };
 
 // Until all frames are stored. How often the machine was slowed down meanwhile.
@@ -266,7 +269,7 @@ void add_capture(CLI::App& app, Action& action) {
   command->add_flag(
       "--real-time", options->real_time,
       "take each frame when a live camera would have it, skip what comes too late, and report the latency");
-  add_thread_options(*command, options->threads);
+  add_thread_options(*command, options->threads, false);
   command->footer("Example: neontetra capture -c trout.avi --csv trout.csv --overlay trout.mp4 --json -");
   command->callback([&action, options] { action = [options] { capture(*options); }; });
 }

@@ -95,10 +95,13 @@ class LiveStore {
   }
 
   void end() {
-    const std::lock_guard lock(mutex_);
-    recording_->finish();
-    std::fprintf(stderr, "recorded %s\n", recording_->summary().c_str());
-    recording_.reset();
+    std::unique_ptr<Recording> done;
+    {
+      const std::lock_guard lock(mutex_);
+      done = std::move(recording_);
+    }
+    done->finish();  // takes its time; the store goes on meanwhile
+    std::fprintf(stderr, "recorded %s\n", done->summary().c_str());
   }
 
   void finish() {
@@ -131,19 +134,20 @@ class Live {
                              actor_pane_.height, options.display)),
         period_ns_(static_cast<double>(kSecond_ns) / session_.info().fps) {
     measuring_ = options.capture.scale_mm > 0 && !options.capture.scale_points;
-    take_place(options.threads, LoopThread::display);
   }
 
   void run() {
     loop_.emplace(session_, loop_settings(),
                   CaptureLoop::Store{[this](const Observation& seen) { store_.write(seen); }});
+    take_place(options_.threads, LoopThread::display);  // threads begun after it would share its place
     last_draw_ns_ = steady_now_ns();
     while (!quit_ && !interrupted() && loop_->running()) {
       handle_events();
       while (const Observation* seen = loop_->next_seen()) show(*seen);
       draw();
       watch_.look();
-      service_.alive(last_draw_ns_);
+      if (loop_->rounds() != rounds_) service_.alive(last_draw_ns_);  // both threads live
+      rounds_ = loop_->rounds();
       sleep_until_ns(last_draw_ns_ + kDrawPeriod_ns);
     }
     loop_->finish();
@@ -321,7 +325,7 @@ class Live {
   bool paused_ = false, quit_ = false;
   bool measuring_ = false;  // the next two clicks are the ends of --scale-mm
   std::optional<Vec2> first_end_;
-  int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0;
+  int64_t frame_shown_ns_ = 0, last_draw_ns_ = 0, rounds_ = -1;
   std::optional<CaptureLoop> loop_;  // ends before all that its threads write to
 };
 
@@ -363,7 +367,7 @@ void add_live(CLI::App& app, Action& action) {
     options->has_backdrop = true;
   });
   add_display_options(*command, options->display, true);
-  add_thread_options(*command, options->threads);
+  add_thread_options(*command, options->threads, true);
   command
       ->add_option_function<std::string>(
           "--info-text",

@@ -47,7 +47,8 @@ std::optional<Frame> CameraThread::next() {
   while (!stop_ && !ring_.wait_filled(kLook)) {
     if (ring_.closed()) break;
   }
-  if (!stop_) held_ = ring_.oldest();
+  if (stop_) return std::nullopt;  // then the camera's thread may still be at work
+  held_ = ring_.oldest();
   if (held_ != nullptr) return held_->frame;
   if (failed_) std::rethrow_exception(failed_);
   return std::nullopt;
@@ -122,6 +123,7 @@ void CameraThread::fill(Slot& slot, const Frame& frame) {
   if (info_.live) slot.had_ns = camera_->epoch_ns() + frame.timestamp_ns;
   else slot.had_ns = settings_.pace == Pace::clock ? due_ns_ : 0;
   if (settings_.pictures) slot.picture = copied(camera_->picture(), slot.rgb);
+  slot.truth.reset();
   if (!settings_.truth) return;
   if (const TankTruth* truth = camera_->truth(); truth != nullptr) slot.truth = *truth;
 }

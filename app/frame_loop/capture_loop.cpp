@@ -26,26 +26,30 @@ CaptureLoop::CaptureLoop(Session& session, const Settings& settings, Store store
 CaptureLoop::~CaptureLoop() { join(); }
 
 void CaptureLoop::run(LoopThread thread, const std::function<void()>& work) {
+  guard([&] { take_place(settings_.plan, thread), work(); });
+  if (thread == LoopThread::core) {
+    stored_.close();
+    return;
+  }
+  guard(out_.end);
+  const std::lock_guard lock(mutex_);
+  done_ = true;
+  ended_.notify_all();
+}
+
+// The first thing that is thrown on a thread ends them all.
+void CaptureLoop::guard(const std::function<void()>& work) {
   try {
-    take_place(settings_.plan, thread);
     work();
   } catch (...) {
     const std::lock_guard lock(mutex_);
     if (!failed_) failed_ = std::current_exception();
     stop_ = true;
   }
-  if (thread == LoopThread::core) {
-    stored_.close();
-    return;
-  }
-  out_.end();
-  const std::lock_guard lock(mutex_);
-  done_ = true;
-  ended_.notify_all();
 }
 
 void CaptureLoop::capture() {
-  while (!stop_) {
+  for (; !stop_; ++rounds_) {
     answer();
     if (!camera_.wait_ready(kLook)) continue;
     if (!session_.step()) return;
@@ -66,7 +70,9 @@ void CaptureLoop::hand_on() {
 }
 
 void CaptureLoop::store() {
-  while (stored_.wait_filled(kLook) || !stored_.closed()) {
+  for (bool last = false; !last;) {
+    last = stored_.closed();  // asked first: what came before the end is taken below
+    stored_.wait_filled(kLook);
     while (const Observation* seen = stored_.next()) {
       out_.write(*seen);
       stored_.let_go();

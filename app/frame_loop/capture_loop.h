@@ -54,18 +54,22 @@ class CaptureLoop {
   bool running() const { return !done_; }     // false when all that was filmed is stored
   bool wait(std::chrono::milliseconds most);  // until then; running()
   int64_t frames() const { return frames_; }  // through core so far
+  int64_t rounds() const {
+    return rounds_;
+  }  // of the core thread, ten a second at least, with frames or without: it lives
   int64_t not_stored() const { return not_stored_; }
+  int64_t pictures_not_stored() const { return stored_.pictures_lost(); }
   int64_t not_shown() const { return not_shown_; }
   // Ends filming; what was filmed is stored. Throws what a thread has thrown.
   void finish();
 
  private:
   void run(LoopThread thread, const std::function<void()>& work);
+  void guard(const std::function<void()>& work);
   void capture();
   void store();
   void hand_on();
   void answer();
-  void fail();
   void join();
 
   Session& session_;
@@ -79,7 +83,7 @@ class CaptureLoop {
   std::exception_ptr failed_;
   std::condition_variable ended_;
   std::atomic<bool> stop_{false}, done_{false}, has_asked_{false};
-  std::atomic<int64_t> frames_{0}, not_stored_{0}, not_shown_{0};
+  std::atomic<int64_t> frames_{0}, rounds_{0}, not_stored_{0}, not_shown_{0};
   std::thread core_thread_, store_thread_;
 };
 

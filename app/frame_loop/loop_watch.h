@@ -24,6 +24,7 @@ class LoopWatch {
   Json json(const CaptureLoop& loop) const {
     const ThrottleState& state = machine();
     return {{"frames_not_stored", loop.not_stored()},
+            {"pictures_not_stored", loop.pictures_not_stored()},
             {"frames_not_shown", loop.not_shown()},
             {"slowed_down", throttling_.times()},
             {"hottest_c", state.knows_heat ? Json(state.hottest_c) : Json(nullptr)}};

@@ -6,7 +6,9 @@ namespace nt {
 bool ObservationRing::add(const Observation& seen, const Keep& what) {
   Slot* slot = seen_.free_slot();
   if (slot == nullptr) return false;
-  std::vector<uint8_t>* pixels = what.picture && seen.picture.pixels != nullptr ? pixels_.free_slot() : nullptr;
+  const bool has_picture = what.picture && seen.picture.pixels != nullptr;
+  std::vector<uint8_t>* pixels = has_picture ? pixels_.free_slot() : nullptr;
+  if (has_picture && pixels == nullptr) ++pictures_lost_;
   slot->seen.keep(seen, what, pixels);
   slot->has_pixels = pixels != nullptr;
   if (pixels != nullptr) pixels_.push();

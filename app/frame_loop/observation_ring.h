@@ -2,6 +2,7 @@
 // A ring of observations between two threads, with one for their pictures beside it: those are a thousand times as large, so
 // there are fewer, and an observation may come without.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,7 @@ class ObservationRing {
   bool wait_filled(std::chrono::milliseconds most) { return seen_.wait_filled(most); }
   void close();
   bool closed() { return seen_.closed(); }
+  int64_t pictures_lost() const { return pictures_lost_; }  // that found no place
 
  private:
   struct Slot {
@@ -38,6 +40,7 @@ class ObservationRing {
   Ring<std::vector<uint8_t>> pixels_;
   Slot* held_ = nullptr;          // the reader's
   bool last_has_pixels_ = false;  // the writer's
+  std::atomic<int64_t> pictures_lost_{0};
 };
 
 }  // namespace nt

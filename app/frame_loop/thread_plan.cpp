@@ -57,25 +57,29 @@ void parse_priority(const std::string& text, ThreadPlan& plan) {
   place.priority = static_cast<int>(parse_integer("--priority", value, 1, kMostPriority));
 }
 
-void add_thread_options(CLI::App& command, ThreadPlan& plan) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--affinity",
-          [&plan](const std::vector<std::string>& words) {
-            for (const std::string& word : words) parse_affinity(word, plan);
-          },
-          "the processors of a thread (camera, core, display, store): core=3, camera=0-1; may be given several times")
-      ->type_name("THREAD=CPUS")
-      ->allow_extra_args(false);
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--priority",
-          [&plan](const std::vector<std::string>& words) {
-            for (const std::string& word : words) parse_priority(word, plan);
-          },
-          "real-time priority of a thread, 1 to 99: core=50; it needs the right to (ulimit -r)")
-      ->type_name("THREAD=N")
-      ->allow_extra_args(false);
+void add_thread_options(CLI::App& command, ThreadPlan& plan, bool draws) {
+  const std::string names = draws ? "camera, core, display, store" : "camera, core, store";
+  const auto add = [&](const char* option, void (*parse)(const std::string&, ThreadPlan&), const std::string& what,
+                       const char* value) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            option,
+            [&plan, draws, parse, option](const std::vector<std::string>& words) {
+              for (const std::string& word : words) {
+                if (!draws && word.starts_with("display="))
+                  throw UserError(std::string(option) + ": '" + word + "': this command has no display thread", 2);
+                parse(word, plan);
+              }
+            },
+            what)
+        ->type_name(value)
+        ->allow_extra_args(false);
+  };
+  add("--affinity", parse_affinity,
+      "the processors of a thread (" + names + "): core=3, camera=0-1; may be given several times", "THREAD=CPUS");
+  add("--priority", parse_priority,
+      "real-time priority of a thread (" + names + "), 1 to 99: core=50; it needs the right to (ulimit -r)",
+      "THREAD=N");
 }
 
 void take_place(const ThreadPlan& plan, LoopThread thread) {
@@ -93,9 +97,10 @@ void take_place(const ThreadPlan& plan, LoopThread thread) {
   if (place.priority > 0) {
     sched_param wanted{};
     wanted.sched_priority = place.priority;
-    if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted); error != 0)
+    // It is this thread's alone: what it starts, an encoder for example, is as all others.
+    if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) != 0)
       throw UserError("--priority " + name + "=" + std::to_string(place.priority) +
-                      (error == EPERM
+                      (errno == EPERM
                            ? ": not allowed; raise the limit (ulimit -r, LimitRTPRIO= of a unit) or leave it out"
                            : ": the system refuses it"));
   }

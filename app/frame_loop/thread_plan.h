@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which processors the threads of the frame loop run on, and how urgent each is: --affinity and --priority.
 //
-// A thread is named after its task (`neontetra-core` in top and ps). Without the options the system decides.
+// A thread is named after its task (`nt-core` in top -H and ps). Without the options the system decides.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -27,7 +27,8 @@ using ThreadPlan = std::array<ThreadPlace, kLoopThreads>;  // by LoopThread
 // "core=2-3" and "core=50". Throw UserError (exit code 2) with what can be written.
 void parse_affinity(const std::string& text, ThreadPlan& plan);
 void parse_priority(const std::string& text, ThreadPlan& plan);
-void add_thread_options(CLI::App& command, ThreadPlan& plan);
+// `draws`: the command has a display thread that can be placed.
+void add_thread_options(CLI::App& command, ThreadPlan& plan, bool draws);
 
 // Names the calling thread and puts it where the plan has it. Throws UserError where the machine has no such processor or
 // the user may not ask for the priority.

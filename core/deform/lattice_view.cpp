@@ -175,12 +175,12 @@ bool pattern_is_closed(const LatticeView& v) {
   };
   for (std::size_t j = 0; j < v.vertices.size(); ++j) {
     const auto rows = column(j);
-    if (rows.empty()) continue;
-    const auto next = column(rows[0]);
-    if (!std::includes(next.begin(), next.end(), rows.begin() + 1, rows.end())) return false;
     const auto first = v.neighbours.begin() + v.neighbour_start[j],
                last = v.neighbours.begin() + v.neighbour_start[j + 1];
     if (!std::includes(rows.begin(), rows.end(), std::upper_bound(first, last, j), last)) return false;
+    if (rows.empty()) continue;
+    const auto next = column(rows[0]);
+    if (!std::includes(next.begin(), next.end(), rows.begin() + 1, rows.end())) return false;
   }
   return true;
 }
@@ -188,6 +188,22 @@ bool pattern_is_closed(const LatticeView& v) {
 bool adjacent(const LatticeView& v, uint16_t a, uint16_t b) {
   return std::binary_search(v.neighbours.begin() + v.neighbour_start[a],
                             v.neighbours.begin() + v.neighbour_start[a + 1u], b);
+}
+
+// Every vertex has a neighbour, and both ends of an edge know its weight: the solver goes through each edge from one of them.
+bool edges_are_mutual(const LatticeView& v) {
+  for (std::size_t i = 0; i < v.vertices.size(); ++i) {
+    if (v.neighbour_start[i] == v.neighbour_start[i + 1]) return false;
+    for (uint32_t p = v.neighbour_start[i]; p < v.neighbour_start[i + 1]; ++p) {
+      const auto j = v.neighbours[p];
+      const auto first = v.neighbours.begin() + v.neighbour_start[j],
+                 last = v.neighbours.begin() + v.neighbour_start[j + 1u];
+      const auto back = std::lower_bound(first, last, static_cast<uint16_t>(i));
+      if (j == i || back == last || *back != i) return false;
+      if (v.weights[static_cast<std::size_t>(back - v.neighbours.begin())] != v.weights[p]) return false;
+    }
+  }
+  return true;
 }
 
 bool marker_is_sound(const LatticeView& v, const MarkerBinding& m) {
@@ -243,7 +259,7 @@ Status check_lattice(const LatticeView& view, const Limits& limits) {
   const std::size_t n = view.vertices.size();
   if (!lists_are_sound(view.neighbour_start, view.neighbours, n, false) ||
       view.weights.size() != view.neighbours.size() || !lists_are_sound(view.column_start, view.rows, n, true) ||
-      !pattern_is_closed(view)) {
+      !pattern_is_closed(view) || !edges_are_mutual(view)) {
     return bad("the lattice's pattern is damaged");
   }
   for (const float w : view.weights) {

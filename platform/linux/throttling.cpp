@@ -43,11 +43,13 @@ ThrottleState read_throttling(const std::string& sys) {
   state.power = (bits & kUnderVoltage) != 0;
   state.hot = (bits & (kThrottled | kSoftLimit)) != 0 || ((bits & kCapped) != 0 && !state.power);
   std::error_code none;  // no such folder: nothing to read
-  for (const auto& entry : std::filesystem::directory_iterator(sys + "/class/thermal", none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("thermal_zone")) read_zone(entry.path(), state);
-    if (name.starts_with("cooling_device") && cools_processors(first_line(entry.path() / "type")))
-      state.hot = state.hot || std::atoi(first_line(entry.path() / "cur_state").c_str()) > 0;
+  std::filesystem::directory_iterator entry(sys + "/class/thermal", none);
+  for (; entry != std::filesystem::directory_iterator(); entry.increment(none)) {
+    const std::filesystem::path& path = entry->path();
+    const std::string name = path.filename().string();
+    if (name.starts_with("thermal_zone")) read_zone(path, state);
+    if (name.starts_with("cooling_device") && cools_processors(first_line(path / "type")))
+      state.hot = state.hot || std::atoi(first_line(path / "cur_state").c_str()) > 0;
   }
   return state;
 }

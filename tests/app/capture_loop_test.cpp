@@ -139,6 +139,7 @@ TEST(CaptureLoop, PicturesAreTheFirstThingASlowDiskLoses) {
   over = true;
   loop.finish();
   EXPECT_EQ(stored, session.statistics().frames);
+  EXPECT_EQ(pictures + loop.pictures_not_stored(), stored);
   EXPECT_GE(pictures, 4);
   EXPECT_LT(pictures, stored / 2);
 }
@@ -182,6 +183,32 @@ TEST(CaptureLoop, WhatIsAskedForIsDoneOnTheCoreThreadBetweenTwoFrames) {
   EXPECT_GE(done, asked);
   EXPECT_LT(done, 100);
   EXPECT_STREQ(thread, "nt-core");
+}
+
+// By this a watchdog knows that the core thread lives, whether there is a picture or not.
+TEST(CaptureLoop, ItsRoundsGoOnWhileNothingIsFilmed) {
+  Session session(tank(",fps=100"));  // without end
+  CaptureLoop::Settings settings;
+  settings.pace = Pace::clock;
+  CaptureLoop loop(session, settings, {[](const Observation&) {}});
+  EXPECT_TRUE(wait_for_frames(loop, 3, never));
+  loop.pause(true);
+  const int64_t before = loop.rounds();
+  for (int looks = 0; looks < 300 && loop.rounds() < before + 3; ++looks) std::this_thread::sleep_for(kLook);
+  EXPECT_GE(loop.rounds(), before + 3);
+  std::atomic<bool> hangs{false}, go{false};
+  loop.ask([&](Session&) {
+    hangs = true;
+    hangs.notify_all();
+    go.wait(false);
+  });
+  hangs.wait(false);
+  const int64_t hung = loop.rounds();
+  std::this_thread::sleep_for(30 * kLook);
+  EXPECT_EQ(loop.rounds(), hung) << "a core thread that hangs is not seen";
+  go = true;
+  go.notify_all();
+  loop.finish();
 }
 
 TEST(CaptureLoop, NoThreadAllocatesInStep) {

@@ -229,6 +229,22 @@ TEST(SkeletonFile, WhatTheReaderWouldTrustIsLookedAtFirst) {
   std::ofstream(path, std::ios::binary) << glb_of(json, leg_binary());
   EXPECT_NE(refusal_of(path).find("inverseBindMatrices"), std::string::npos);
   EXPECT_THROW(read_triangles(path), UserError);
+  for (const char* wrong : {"null", "-1", "1.5", "\"x\"", "99", "0"}) {
+    json = kLegJson;
+    json.replace(json.find("Matrices\":4") + 10, 1, wrong);
+    std::ofstream(path, std::ios::binary) << glb_of(json, leg_binary());
+    EXPECT_NE(refusal_of(path).find("inverseBindMatrices"), std::string::npos) << wrong;
+  }
+  json = kLegJson;
+  json.replace(json.find("\"count\":3,\"type\":\"MAT4"), 9, "\"count\":1");
+  std::ofstream(path, std::ios::binary) << glb_of(json, leg_binary());
+  EXPECT_NE(refusal_of(path).find("inverseBindMatrices"), std::string::npos);
+  json = kLegJson;
+  json.insert(json.size() - 1, ",\"extras\":" + std::string(100'000, '[') + std::string(100'000, ']'));
+  std::ofstream(path, std::ios::binary) << glb_of(json, leg_binary());
+  EXPECT_NE(refusal_of(path).find("damaged"), std::string::npos);
+  std::ofstream(path, std::ios::binary) << glb_of(kLegJson, leg_binary()) << "\0\0\0";  // padding
+  EXPECT_EQ(refusal_of(path), "");
   std::string glb = glb_of(kLegJson, leg_binary());
   glb[15] = '\x70';
   std::ofstream(path, std::ios::binary) << glb;

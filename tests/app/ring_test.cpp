@@ -66,7 +66,9 @@ TEST(Ring, BetweenTwoThreadsNothingIsLostAndNothingChangesPlaces) {
     ring.close();
   });
   int next = 0;
-  while (ring.wait_filled(milliseconds(100)) || !ring.closed()) {
+  for (bool last = false; !last;) {
+    last = ring.closed();
+    ring.wait_filled(milliseconds(100));
     while (const int* value = ring.oldest()) {
       ASSERT_EQ(*value, next++);
       ring.pop();

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "platform/camera.h"
+#include "tests/app/run_binary.h"
 
 namespace nt {
 namespace {
@@ -31,6 +32,9 @@ TEST(ThreadPlan, RefusesWhatItCannotRead) {
     EXPECT_THROW(parse_affinity(text, plan), UserError) << text;
   for (const char* text : {"", "core", "core=0", "core=100", "core=high", "tail=3"})
     EXPECT_THROW(parse_priority(text, plan), UserError) << text;
+  const Outcome run = neontetra("capture -c sim:frames=1 --affinity display=0");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("this command has no display thread"), std::string::npos) << run.err;
 }
 
 TEST(ThreadPlan, AThreadGoesToItsProcessorUnderItsName) {
@@ -61,10 +65,10 @@ TEST(ThreadPlan, ARealTimePriorityIsTakenOrRefusedInOneLine) {
     try {
       take_place(plan, LoopThread::core);
       sched_param now{};
-      int policy = 0;
-      pthread_getschedparam(pthread_self(), &policy, &now);
-      EXPECT_EQ(policy, SCHED_FIFO);
+      sched_getparam(0, &now);
+      EXPECT_EQ(sched_getscheduler(0) & ~SCHED_RESET_ON_FORK, SCHED_FIFO);
       EXPECT_EQ(now.sched_priority, 7);
+      std::thread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER) << "what it starts is as urgent"; }).join();
     } catch (const UserError& error) {
       EXPECT_NE(std::string(error.what()).find("--priority core=7: not allowed; raise the limit"), std::string::npos)
           << error.what();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A long run of `neontetra live` on the simulated tank, drawn off-screen and recorded in a take: does memory stay flat, is every
-frame captured, does no step of core take long?
+frame captured and recorded, does no step of core take long?
 
 `./dev bench endurance` gives the options. The tank's frames come when a camera would have them; a frame that is not fetched in time is
 dropped. Memory is the process's resident set, looked at every second; it is flat if no tenth of the run after the first has a
@@ -63,7 +63,7 @@ def drift(samples):
 def priority():
     """Options of the program; none where this user may not ask for it."""
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(20))
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
     except PermissionError:
         print("endurance: no right to real-time priority (ulimit -r), so the steps are less even", file=sys.stderr)
@@ -77,7 +77,8 @@ def judge(report, wanted, samples):
     rise = drift(samples)
     return {
         "frames": report["frames"], "frames_wanted": wanted, "frames_dropped": report["frames_dropped"],
-        "no_frame_dropped": report["frames_dropped"] == 0 and report["frames"] == wanted,
+        "frames_not_stored": report["loop"]["frames_not_stored"],
+        "no_frame_dropped": report["frames_dropped"] == 0 and report["loop"]["frames_not_stored"] == 0 and report["frames"] == wanted,
         "rss_drift_bytes": rise, "rss_peak_bytes": max(samples, default=0), "memory_flat": rise is not None and rise < MOST_DRIFT_BYTES,
         "step_median_us": total["median"], "step_p999_us": total["p999"], "step_p999_over_median": round(spread, 2),
         "steps_even": spread < MOST_SPREAD,
@@ -88,7 +89,7 @@ def text(r):
     def kept(what):
         return "kept" if r[what] else "NOT KEPT"
     rise = "too short a run to say" if r["rss_drift_bytes"] is None else f"{r['rss_drift_bytes'] / MB:.2f} MB"
-    return (f"frames: {r['frames']} of {r['frames_wanted']}, {r['frames_dropped']} dropped: {kept('no_frame_dropped')}\n"
+    return (f"frames: {r['frames']} of {r['frames_wanted']}, {r['frames_dropped']} dropped, {r['frames_not_stored']} not recorded: {kept('no_frame_dropped')}\n"
             f"memory: drift {rise}, peak {r['rss_peak_bytes'] / MB:.1f} MB; under {MOST_DRIFT_BYTES / MB:.2f}: {kept('memory_flat')}\n"
             f"core's step: median {r['step_median_us']:.0f} us, 99.9th percentile {r['step_p999_us']:.0f} us, ratio "
             f"{r['step_p999_over_median']:.2f}; under {MOST_SPREAD:.0f}: {kept('steps_even')}")

@@ -76,6 +76,7 @@ TEST(LatticeViewTest, DamageIsFound) {
   EXPECT_TRUE(refused([](LatticeData& d) { d.neighbour_start[2] = 60000; }));
   EXPECT_TRUE(refused([](LatticeData& d) { d.weights[0] = -1.0f; }));
   EXPECT_TRUE(refused([](LatticeData& d) { d.weights[0] = std::numeric_limits<float>::quiet_NaN(); }));
+  EXPECT_TRUE(refused([](LatticeData& d) { d.weights[0] += 0.5f; }));  // the edge's other end has another
   EXPECT_TRUE(refused([](LatticeData& d) { d.rows[0] = 0; }));
   EXPECT_TRUE(refused([](LatticeData& d) { d.rows.pop_back(), d.column_start.back()--; }));
   EXPECT_TRUE(refused([](LatticeData& d) { d.column_start[1] = 60000; }));

@@ -12,7 +12,7 @@ neontetra "${watch[@]}" --camera libcamera:,size=480x272,fps=5 --frames 50 --csv
 says libcamera.txt "480x272 yuyv"
 says libcamera.txt "through libcamera"
 
-neontetra "${watch[@]}" --camera libcamera --csv libcamera_pulled.csv 2>libcamera_pulled.txt &
+neontetra "${watch[@]}" --camera libcamera --csv libcamera_pulled.csv --frame-hashes libcamera_pulled.hashes 2>libcamera_pulled.txt &
 film=$!
 for _ in $(seq 300); do grep -qs "through libcamera" libcamera_pulled.txt && break; sleep 0.1; done
 sleep 6

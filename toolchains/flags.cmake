@@ -36,6 +36,7 @@ elseif(NEONTETRA_SANITIZE STREQUAL "thread")
   add_link_options(-fsanitize=thread)
 endif()
 if(NEONTETRA_SANITIZE)
-  # A sanitizer calls dlopen in the program's place, so only the old kind of run path, which holds for all, finds modules.
-  add_link_options(-Wl,--disable-new-dtags)
+  # A sanitizer calls dlopen in the program's place, so only the old kind of run path, which holds for all, finds modules. Said
+  # last, for a library asks for the new kind.
+  string(APPEND CMAKE_CXX_STANDARD_LIBRARIES " -Wl,--disable-new-dtags")
 endif()

@@ -81,6 +81,8 @@ class LiveStore {
     for (const TakeFrame& row : rows) past_.add(row);
   }
 
+  // For thumbnails and kept videos.
+  bool wants_pictures() const { return take_.has_value() || recording_ != nullptr; }
   // Null while nothing is recorded. It is made and ended by the thread that draws, so that one may film without a lock.
   Recording* recording() { return recording_.get(); }
 
@@ -139,6 +141,7 @@ class Live {
   void run() {
     loop_.emplace(session_, loop_settings(),
                   CaptureLoop::Store{[this](const Observation& seen) { store_.write(seen); }});
+    loop_->store_pictures(store_.wants_pictures());
     take_place(options_.threads, LoopThread::display);  // threads begun after it would share its place
     last_draw_ns_ = steady_now_ns();
     while (!quit_ && !interrupted() && loop_->running()) {
@@ -233,10 +236,11 @@ class Live {
   void toggle_recording() {
     if (store_.recording() != nullptr) {
       store_.end();
-      return;
+    } else {
+      compose();  // a recording has the size of what is shown
+      store_.begin({options_.record_to, cast_.character_name(), options_.keep_video}, session_, scene_);
     }
-    compose();  // a recording has the size of what is shown
-    store_.begin({options_.record_to, cast_.character_name(), options_.keep_video}, session_, scene_);
+    loop_->store_pictures(store_.wants_pictures());
   }
 
   CaptureLoop::Settings loop_settings() const {

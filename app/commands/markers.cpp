@@ -33,6 +33,8 @@ namespace nt {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 640;
+constexpr float kOdd =
+    0.1f;  // rms of the registration over the diagonal; an actor who stands as the mesh does gives 0.01 to 0.08
 
 struct Options {
   std::string file, mesh, skeleton, character;
@@ -315,6 +317,12 @@ void markers(const Options& options) {
   std::optional<LoadedCharacter> character;
   if (!options.character.empty()) character.emplace(options.character, Limits{});
   const auto puppet = puppet_of(options, file, character ? &*character : nullptr);
+  if (const float rms = puppet->registration().rms / puppet->diagonal(); rms > kOdd)
+    std::fprintf(
+        stderr,
+        "neontetra: in frame %lld the markers lie %.0f %% of the mesh's size away from where they belong: the mesh "
+        "must stand as the actor does there (--frame), and be of his kind and side (--mirror)\n",
+        static_cast<long long>(options.choice.frame), 100.0 * static_cast<double>(rms));
   Player player(options, *puppet, file);
   const Summary summary = player.play();
   const Json json = report_of(player, file, summary);

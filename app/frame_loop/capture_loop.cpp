@@ -61,11 +61,13 @@ void CaptureLoop::capture() {
 void CaptureLoop::hand_on() {
   const Observation& seen =
       observer_.look(session_, settings_.display.picture || settings_.store.picture, settings_.display.masks);
+  Keep store = settings_.store;
+  store.picture = store.picture && store_pictures_;
   if (settings_.pace == Pace::every) {
-    while (!stop_ && !(stored_.wait_free(kLook) && (!settings_.store.picture || stored_.wait_picture_free(kLook)))) {
+    while (!stop_ && !(stored_.wait_free(kLook) && (!store.picture || stored_.wait_picture_free(kLook)))) {
     }
   }
-  if (!stored_.add(seen, settings_.store)) ++not_stored_;
+  if (!stored_.add(seen, store)) ++not_stored_;
   if (settings_.has_display && !display_.add_newest(seen, settings_.display)) ++not_shown_;
 }
 

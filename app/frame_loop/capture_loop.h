@@ -49,6 +49,8 @@ class CaptureLoop {
   // On the core thread, before its next step.
   void ask(std::function<void(Session&)> what);
   void pause(bool on);
+  // Whether the store is given the pictures that its Keep asks for (at first: yes), from the next frame on.
+  void store_pictures(bool on) { store_pictures_ = on; }
   // The display's: the next observation that it has not seen, until the next call; null when there is none yet.
   const Observation* next_seen() { return display_.next(); }
   bool running() const { return !done_; }     // false when all that was filmed is stored
@@ -82,7 +84,7 @@ class CaptureLoop {
   std::vector<std::function<void(Session&)>> asked_, answered_;
   std::exception_ptr failed_;
   std::condition_variable ended_;
-  std::atomic<bool> stop_{false}, done_{false}, has_asked_{false};
+  std::atomic<bool> stop_{false}, done_{false}, has_asked_{false}, store_pictures_{true};
   std::atomic<int64_t> frames_{0}, rounds_{0}, not_stored_{0}, not_shown_{0};
   std::thread core_thread_, store_thread_;
 };

@@ -28,6 +28,11 @@ class FrameClock {
     last_count_ = count, last_ns_ = at_ns;
     return {sequence_, at_ns - epoch_ns_};
   }
+  // Overtaken by the last one that was taken; farther behind it is a driver that counts anew.
+  bool is_late(uint32_t count) const {
+    const auto ahead = static_cast<int32_t>(count - last_count_);
+    return any_ && !restarted_ && ahead < 0 && ahead > -kMostLate;
+  }
   // The driver counts anew from here on: what was missed is told by the time that went by.
   void restart(double fps) { restarted_ = any_, fps_ = fps; }
 
@@ -37,6 +42,7 @@ class FrameClock {
  private:
   static constexpr int64_t kAhead_ns = 100'000'000;  // what two processors' clocks and rounding may differ by, and more
   static constexpr int64_t kBehind_ns = 5'000'000'000;
+  static constexpr int32_t kMostLate = 32;
   static constexpr uint32_t kMostStep = 100'000;  // an hour at 30 frames a second
 
   static uint64_t step(uint32_t counts) { return counts == 0 || counts > kMostStep ? 1 : counts; }

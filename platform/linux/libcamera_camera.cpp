@@ -310,7 +310,6 @@ class LibcameraCamera : public Camera {
                           "); check its cable, then switch the board off and on",
                       3);
     running_ = true;
-    numbered_ = false;
     heard_ns_ = steady_now_ns();
     for (const std::unique_ptr<lc::Request>& request : lc_->requests) {
       request->reuse(lc::Request::ReuseBuffers);
@@ -402,7 +401,7 @@ class LibcameraCamera : public Camera {
   bool look_at(lc::Request& request, Frame& frame) {
     lc::FrameBuffer* buffer = request.buffers().begin()->second;
     const lc::FrameMetadata& metadata = buffer->metadata();
-    if (metadata.status != lc::FrameMetadata::FrameSuccess || is_late(metadata.sequence)) return false;
+    if (metadata.status != lc::FrameMetadata::FrameSuccess) return false;
     const PlaneMapping& mapping = *lc_->mappings.at(buffer);
     std::span<const uint8_t> bytes = mapping.bytes();
     if (layout_.format == VideoFormat::mjpeg)
@@ -410,20 +409,12 @@ class LibcameraCamera : public Camera {
     mapping.begin_reading();
     if (!pixels_->unpack(bytes, with_chroma_, frame)) return false;
     if (settling_) return true;
+    // Version 0.0.3 hands over the first few in another order where their requests had to be queued twice.
+    if (clock_.is_late(metadata.sequence)) return false;
     const FrameClock::Stamp stamp =
         clock_.take(metadata.sequence, static_cast<int64_t>(metadata.timestamp), steady_now_ns());
     frame.sequence = stamp.sequence, frame.timestamp_ns = stamp.timestamp_ns;
     return true;
-  }
-
-  // Version 0.0.3 hands over the first few in another order where their requests had to be queued twice. A fish never swims
-  // backwards in time: what is older than the picture before is passed over.
-  bool is_late(uint32_t sequence) {
-    const auto ahead = static_cast<int32_t>(sequence - newest_);
-    const bool late = numbered_ && ahead < 0 && ahead > -kMostLate;
-    if (!late) newest_ = sequence;
-    numbered_ = true;
-    return late;
   }
 
   bool settle(lc::Request& request) {
@@ -489,9 +480,6 @@ class LibcameraCamera : public Camera {
   lc::Request* waiting_ = nullptr;  // to be handed out
   std::string failure_;
   bool with_chroma_ = false, running_ = false, told_ = false, started_again_ = false, locked_ = false;
-  static constexpr int32_t kMostLate = 32;  // farther back it is a camera that counts anew
-  uint32_t newest_ = 0;
-  bool numbered_ = false;  // newest_ is the driver's number of the last whole picture
   int64_t heard_ns_ = 0, damaged_ = 0, delivered_ = 0;
 };
 

@@ -46,5 +46,17 @@ TEST(FrameClock, AfterARestartTheTimeTellsWhatWasMissed) {
   EXPECT_EQ(clock.take(1, 1066 * kMs, 1066 * kMs).sequence, 2u + 30);
 }
 
+TEST(FrameClock, APictureThatWasOvertakenIsLate) {
+  FrameClock clock;
+  EXPECT_FALSE(clock.is_late(7)) << "there is nothing to be behind";
+  clock.take(2, 66 * kMs, 66 * kMs);
+  EXPECT_TRUE(clock.is_late(0));
+  EXPECT_FALSE(clock.is_late(3));
+  clock.take(0x100, 99 * kMs, 99 * kMs);
+  EXPECT_FALSE(clock.is_late(3)) << "a driver that counts anew";
+  clock.restart(30);
+  EXPECT_FALSE(clock.is_late(0xff));
+}
+
 }  // namespace
 }  // namespace nt

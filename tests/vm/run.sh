@@ -96,6 +96,6 @@ python3 "$here/compare.py" kept "$share/late.csv" "$share/libcamera_pulled.csv"
 say "a drawing on its screen"
 run_with_screen screen 120 kms.sh
 say "the kiosk service"
-VM_SYSTEMD=1 run_with_screen kiosk 240 kiosk.sh || { cat "$share/kiosk.failed"; exit 1; }
+VM_SYSTEMD=1 VM_TIMEOUT_S=900 run_with_screen kiosk 600 kiosk.sh || { cat "$share/kiosk.failed"; exit 1; }
 cat "$share/kiosk.passed"
 say "all as it should be"

@@ -19,6 +19,8 @@ UNIT
 ln -sf /$units/machine.service $units/multi-user.target.wants/
 ln -sf /lib/systemd/system/neontetra-kiosk.service $units/multi-user.target.wants/
 ln -sf /lib/systemd/system/multi-user.target $units/default.target
+# The machine has no agetty: systemd would start one after the other in vain, which is half of what an emulated processor can do.
+for unit in getty@ serial-getty@ getty-static; do ln -sf /dev/null $units/$unit.service; done
 cp /mnt/kiosk.env etc/default/neontetra
 : >etc/machine-id
 for folder in dev proc sys mnt; do mount --move /$folder $folder; done

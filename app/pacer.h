@@ -3,7 +3,9 @@
 //
 // Time now -> skips. Frames that are late are skipped to keep the clip's own speed, but at most kMostSkips in one go:
 // where decoding itself is too slow, skipping costs more time than it wins, and whoever plays must get back to the
-// window. Then the clip goes on from now, slower than it was filmed. Nanoseconds; allocates nothing.
+// window. Then the clip goes on from now, slower than it was filmed. With `kept` frames a clip stands for a camera, whose
+// driver keeps so many: one that is not later than that is shown, and what finds them all waiting goes to the newest, as
+// V4l2Camera does. Nanoseconds; allocates nothing.
 #pragma once
 #include <cstdint>
 
@@ -13,7 +15,7 @@ class Pacer {
  public:
   static constexpr int kMostSkips = 8;
 
-  explicit Pacer(int64_t period_ns) : period_ns_(period_ns > 0 ? period_ns : 1) {}
+  explicit Pacer(int64_t period_ns, int64_t kept = 0) : period_ns_(period_ns > 0 ? period_ns : 1), kept_(kept) {}
   int64_t period_ns() const { return period_ns_; }
   void start(int64_t now_ns) { due_ns_ = now_ns; }
   int64_t due_ns() const { return due_ns_; }
@@ -32,8 +34,11 @@ class Pacer {
   }
 
  private:
-  int64_t periods_late(int64_t now_ns) const { return now_ns > due_ns_ ? (now_ns - due_ns_) / period_ns_ : 0; }
-  int64_t period_ns_;
+  int64_t periods_late(int64_t now_ns) const {
+    const int64_t late = now_ns > due_ns_ ? (now_ns - due_ns_) / period_ns_ : 0;
+    return late > kept_ ? late : 0;
+  }
+  int64_t period_ns_, kept_;
   int64_t due_ns_ = 0;
 };
 

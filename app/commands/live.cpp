@@ -2,8 +2,8 @@
 // neontetra live: a window with the camera's overlay beside (or behind) the character that swims like the fish.
 //
 // Camera, core and store have threads of their own (app/frame_loop); this one draws, and is the only one that asks for things.
-// A camera is shown as its frames come. A file or the tank plays at its own frame rate; frames that come too late are
-// skipped and counted as dropped.
+// A camera is shown as its frames come. A file or the tank plays at its own frame rate; frames that come later than a
+// camera's driver would keep them are skipped and counted as dropped.
 // The character is drawn between the last two video frames, so it follows the fish by one video frame, never more.
 // Layouts: the camera beside the character; the camera behind it; the character alone, on its backdrop.
 #include <CLI/CLI.hpp>

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook{100};  // between two looks at whether to end
 constexpr int64_t kNap_ns = 20'000'000;
+constexpr int64_t kDriverRing = 3;  // frames that wait for a thread that sleeps too long, as in V4l2Camera
 
 void copy_plane(LumaView& plane, std::vector<uint8_t>& pixels) {
   const auto width = static_cast<std::size_t>(std::max(plane.width, 0));
@@ -28,7 +29,7 @@ CameraThread::CameraThread(std::unique_ptr<Camera> camera, const Settings& setti
     : camera_(std::move(camera)),
       info_(camera_->info()),
       settings_(settings),
-      pacer_(static_cast<int64_t>(1e9 / info_.fps)),
+      pacer_(static_cast<int64_t>(1e9 / info_.fps), kDriverRing),
       thread_([this] { film(); }) {}
 
 CameraThread::~CameraThread() { stop(); }
@@ -95,7 +96,7 @@ bool CameraThread::film_one() {
   return true;
 }
 
-// A clip is late as a camera is: frames whose time has passed are not shown.
+// A clip is late as a camera is: frames that its driver could not have kept are lost.
 bool CameraThread::wait_until_due() {
   while (paused_ && !stop_) sleep_until_ns(steady_now_ns() + kNap_ns), was_paused_ = true;
   if (settings_.pace == Pace::every || info_.live) return !stop_;

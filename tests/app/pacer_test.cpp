@@ -26,6 +26,17 @@ TEST(Pacer, LateFramesAreSkippedAndTheClipKeepsItsSpeed) {
   EXPECT_TRUE(pacer.due(4 * kPeriod));
 }
 
+TEST(Pacer, ADriverKeepsAFewFrames) {
+  Pacer pacer(kPeriod, 3);
+  pacer.start(0);
+  EXPECT_EQ(pacer.take(4 * kPeriod - 1), 0) << "three wait behind it";
+  EXPECT_TRUE(pacer.due(4 * kPeriod - 1)) << "and follow at once";
+  EXPECT_EQ(pacer.take(4 * kPeriod), 0);
+  EXPECT_EQ(pacer.skips(6 * kPeriod), 4);
+  EXPECT_EQ(pacer.take(6 * kPeriod), 4) << "the ring has run over";
+  EXPECT_FALSE(pacer.due(7 * kPeriod - 1));
+}
+
 TEST(Pacer, ASourceThatIsTooSlowIsNotChased) {
   Pacer pacer(kPeriod);
   pacer.start(0);

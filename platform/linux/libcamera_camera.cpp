@@ -304,6 +304,7 @@ class LibcameraCamera : public Camera {
       const auto frame_us = static_cast<int64_t>(std::llround(1e6 / info_.fps));
       controls.set(lc::controls::FrameDurationLimits, lc::Span<const int64_t, 2>({frame_us, frame_us}));
     }
+    if (locked_) controls.merge(*locked_);  // it is started again: its pictures must stay as bright as they were
     const int error = camera_->start(&controls);
     if (error != 0)
       throw UserError(info_.name + ": the camera does not start (" + std::strerror(-error) +
@@ -426,7 +427,7 @@ class LibcameraCamera : public Camera {
       return false;
     }
     settling_.reset();
-    locked_ = true;
+    if (!locked_) locked_.emplace(camera_->controls());
     return !automatic && stamp_first(request);
   }
 
@@ -445,7 +446,7 @@ class LibcameraCamera : public Camera {
       controls.set(lc::controls::AwbEnable, false);
       if (const auto gains = now.get(lc::controls::ColourGains)) controls.set(lc::controls::ColourGains, *gains);
     }
-    to_set_ = std::move(controls);
+    to_set_ = locked_ = std::move(controls);
     manners_.say(info_.name + ": exposure and white balance are locked");
   }
 
@@ -463,7 +464,8 @@ class LibcameraCamera : public Camera {
   std::unique_ptr<Running> lc_;   // null once the camera was pulled out
   lc::Camera* camera_ = nullptr;  // lc_'s
   lc::Stream* stream_ = nullptr;
-  std::optional<lc::ControlList> to_set_;
+  std::optional<lc::ControlList> to_set_;  // with the next request
+  std::optional<lc::ControlList> locked_;  // what holds exposure and white balance; empty where the camera has neither
 
   std::mutex mutex_;  // of what libcamera's thread hands over
   std::condition_variable wake_;
@@ -479,7 +481,7 @@ class LibcameraCamera : public Camera {
   lc::Request* held_ = nullptr;     // handed out
   lc::Request* waiting_ = nullptr;  // to be handed out
   std::string failure_;
-  bool with_chroma_ = false, running_ = false, told_ = false, started_again_ = false, locked_ = false;
+  bool with_chroma_ = false, running_ = false, told_ = false, started_again_ = false;
   int64_t heard_ns_ = 0, damaged_ = 0, delivered_ = 0;
 };
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the machine saw against what was expected; one line, exit 1 where they differ.
 
-compare.py loopback EXPECTED SEEN     every frame seen is one of those expected, and more than one of them is seen
+compare.py known EXPECTED SEEN      every frame seen is one of those expected, and more than one of them is seen
 compare.py same EXPECTED SEEN EXPECTED_POSES POSES   frames and poses are the same, one by one; times may differ
 compare.py order EXPECTED SEEN      which of the clip's frames were seen: in order, round and round, two at most dropped on the way
 compare.py kept EXPECTED_POSES POSES  the recording that was cut short begins as the whole one and has a second at least
@@ -31,12 +31,12 @@ def first_difference(expected, seen):
     return None if len(expected) == len(seen) else min(len(expected), len(seen))
 
 
-def loopback(expected, seen):
-    known, got = hashes(expected), hashes(seen)
-    strangers = [i for i, value in enumerate(got) if value not in known]
+def known(expected, seen):
+    clip, got = hashes(expected), hashes(seen)
+    strangers = [i for i, value in enumerate(got) if value not in clip]
     if strangers or len(set(got)) < 2:
-        return f"loopback: frames {strangers} of {len(got)} are none of the clip's; {len(set(got))} different ones came"
-    print(f"vm: loopback: {len(got)} frames, each with the bytes of one of the clip's {len(known)}")
+        return f"{seen}: frames {strangers} of {len(got)} are none of the clip's; {len(set(got))} different ones came"
+    print(f"vm: {seen}: {len(got)} frames, each with the bytes of one of the clip's {len(clip)}")
     return None
 
 
@@ -53,12 +53,12 @@ def same(expected, seen, expected_poses, seen_poses):
 
 
 def order(expected, seen):
-    known, got = hashes(expected), hashes(seen)
-    strangers = [i for i, value in enumerate(got) if value not in known]
+    clip, got = hashes(expected), hashes(seen)
+    strangers = [i for i, value in enumerate(got) if value not in clip]
     if strangers or not got:
         return f"{seen}: frames {strangers} of {len(got)} are none of the clip's"
-    places = [known.index(value) for value in got]
-    steps = [(b - a) % len(known) for a, b in zip(places, places[1:])]
+    places = [clip.index(value) for value in got]
+    steps = [(b - a) % len(clip) for a, b in zip(places, places[1:])]
     if any(step not in (1, 2) for step in steps) or steps.count(2) > 2:
         return f"{seen}: these are not the clip's frames in order: {places}"
     print(*places)
@@ -76,6 +76,6 @@ def kept(expected_poses, seen_poses):
 
 if __name__ == "__main__":
     # Run paths are of the machine that runs it: only the names matter.
-    complaint = {"loopback": loopback, "same": same, "order": order, "kept": kept}[sys.argv[1]](*sys.argv[2:])
+    complaint = {"known": known, "same": same, "order": order, "kept": kept}[sys.argv[1]](*sys.argv[2:])
     if complaint:
         sys.exit("vm: FAILED: " + complaint)

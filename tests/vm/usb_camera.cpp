@@ -2,7 +2,9 @@
 // usb_camera WIDTH HEIGHT FPS CLIP.yuyv: a USB camera (UVC 1.0, bulk transfers) in user space, on gadgetfs and dummy_hcd.
 //
 // The kernel's own uvcvideo driver finds it, so V4L2 programs and libcamera see a real camera that shows the clip's frames,
-// one after another, from the first one each time it is started. Runs until it is killed: then the camera is unplugged.
+// one after another, from the first one each time it is started. Its exposure is automatic until it is told otherwise; what it is
+// told is printed. SIGUSR1: it falls silent until it is started again; SIGUSR2: for good. Runs until it is killed: then the camera
+// is unplugged.
 // (The kernel's f_uvc gadget wants isochronous transfers, which dummy_hcd does not have.)
 // Sources: USB Device Class Definition for Video Devices 1.0; linux/usb/gadgetfs.h.
 #include <fcntl.h>
@@ -15,6 +17,7 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -33,10 +36,14 @@ constexpr unsigned kPayload = 16384;    // bytes a transfer, header included
 constexpr unsigned kControlBytes = 26;  // of a UVC 1.0 probe
 constexpr uint8_t kSetCur = 0x01, kGetCur = 0x81, kGetMin = 0x82, kGetMax = 0x83, kGetRes = 0x84, kGetLen = 0x85,
                   kGetInfo = 0x86, kGetDef = 0x87;
-constexpr uint8_t kProbe = 1, kCommit = 2;
+constexpr uint8_t kProbe = 1, kCommit = 2;               // of the stream
+constexpr uint8_t kExposureMode = 2, kExposureTime = 4;  // of the camera terminal
+constexpr uint8_t kManual = 1, kAperturePriority = 8;    // exposure modes
+constexpr unsigned kNever = ~0U;
 
 std::atomic<bool> configured{false}, streaming{false};
-std::atomic<unsigned> starts{0};  // how often the host started the stream
+std::atomic<unsigned> starts{0};        // how often the host started the stream
+std::atomic<unsigned> silent_until{0};  // it shows nothing before that start
 
 void put16(Bytes& to, unsigned value) {
   to.push_back(value & 255);
@@ -68,7 +75,7 @@ Bytes control_interface() {
   header.insert(header.end(), {1, 1});
   Bytes camera{0, 0x24, 2, 1};
   put16(camera, 0x0201);
-  camera.insert(camera.end(), {0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0});
+  camera.insert(camera.end(), {0, 0, 0, 0, 0, 0, 0, 0, 3, 0x0a, 0, 0});
   Bytes output{0, 0x24, 3, 3};
   put16(output, 0x0101);
   output.insert(output.end(), {0, 1, 0});
@@ -190,6 +197,10 @@ void play(const Film& film) {
       continue;
     }
     if (starts != start) start = starts, frame = 0, due = Clock::now();
+    if (start < silent_until) {
+      usleep(2000);
+      continue;
+    }
     send(fd, &film.bytes[frame++ % film.frames() * film.frame_bytes()], film.frame_bytes(), toggle, start, payload);
     toggle ^= 1;
     // What was late is not made up for: where the host stops the machine for a while, that would be more at once than the ring holds.
@@ -226,7 +237,12 @@ class ControlPipe {
     const unsigned kind = request.bRequestType & 0x60u, selector = request.wValue >> 8;
     if (kind == USB_TYPE_STANDARD) return answer_standard(request);
     const bool to_stream = kind == USB_TYPE_CLASS && (request.wIndex & 255) == 1;
+    const bool to_terminal = kind == USB_TYPE_CLASS && request.wIndex == 0x0100;
     if (to_stream && (selector == kProbe || selector == kCommit)) return answer_stream(request, selector);
+    if (to_terminal && selector == kExposureMode)
+      return answer_control(request, mode_, {"exposure mode", 1, kAperturePriority, 0, 0, kManual | kAperturePriority});
+    if (to_terminal && selector == kExposureTime)
+      return answer_control(request, time_, {"exposure time", 4, 156, 1, 5000, 1});
     refuse(request);
   }
 
@@ -276,6 +292,40 @@ class ControlPipe {
     }
   }
 
+  struct Control {
+    const char* name;
+    unsigned bytes, usual, least, most, step;  // the step of a set of modes is all of them
+  };
+  void answer_control(const usb_ctrlrequest& request, unsigned& value, const Control& control) {
+    switch (request.bRequest) {
+      case kGetCur:
+        return give(request, number(value, control.bytes));
+      case kGetMin:
+        return give(request, number(control.least, control.bytes));
+      case kGetMax:
+        return give(request, number(control.most, control.bytes));
+      case kGetDef:
+        return give(request, number(control.usual, control.bytes));
+      case kGetRes:
+        return give(request, number(control.step, control.bytes));
+      case kGetInfo:
+        return give(request, {3});
+      case kSetCur:
+        if (read(fd_, &value, std::min<std::size_t>(request.wLength, control.bytes)) < 0) return;
+        std::printf("%s %u\n", control.name, value);
+        std::fflush(stdout);
+        return;
+      default:
+        refuse(request);
+    }
+  }
+  static Bytes number(unsigned value, unsigned bytes) {
+    Bytes all;
+    put32(all, value);
+    all.resize(bytes);
+    return all;
+  }
+
   void give(const usb_ctrlrequest& request, const Bytes& bytes) {
     if (write(fd_, bytes.data(), std::min<std::size_t>(bytes.size(), request.wLength)) < 0)
       std::perror("control write");
@@ -294,6 +344,7 @@ class ControlPipe {
 
   int fd_;
   Bytes probe_;
+  unsigned mode_ = kAperturePriority, time_ = 156;  // 156: 15.6 ms
 };
 
 }  // namespace
@@ -308,6 +359,8 @@ int main(int argc, char** argv) {
   if (film.fps == 0 || film.frames() == 0) return 2;
   const int fd = open_device(film);
   if (fd < 0) return 1;
+  std::signal(SIGUSR1, [](int) { silent_until = starts + 1; });
+  std::signal(SIGUSR2, [](int) { silent_until = kNever; });
   std::thread(play, std::cref(film)).detach();
   // gadgetfs acknowledges a control write before its data was read here; should the next request overtake it, the pipe
   // stalls. With real-time priority, on the machine's only processor, it never does.

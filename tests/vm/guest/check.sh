@@ -20,10 +20,10 @@ rows() {
   count=$(($(wc -l <"$1") - 1))
   ((count >= $2)) || fail "$1 has $count rows, $2 are too few"
 }
-# films FILE: waits until the program that writes its messages there has a picture.
+# films FILE [TEXT]: waits until the program that writes its messages there has a picture, which is when it says TEXT.
 films() {
   for _ in $(seq 300); do
-    grep -qs "frames a second" "$1" && break
+    grep -qsF -- "${2:-frames a second}" "$1" && break
     sleep 0.1
   done
   sleep 1

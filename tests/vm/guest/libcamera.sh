@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The simulated USB camera through libcamera, then pulled out while it films.
+# The simulated USB camera through libcamera: its pictures, its exposure, its silence; then pulled out while it films.
 . /mnt/check.sh
 . /mnt/usb_camera.sh
 start_usb_camera
@@ -11,11 +11,14 @@ neontetra "${watch[@]}" --camera libcamera:,size=480x272,fps=5 --frames 50 --csv
   2>libcamera.txt || { cat libcamera.txt; fail "the USB camera through libcamera"; }
 says libcamera.txt "480x272 yuyv"
 says libcamera.txt "through libcamera"
+says libcamera.txt "exposure and white balance are locked"
+says camera.txt "exposure mode 1"
+falls_silent libcamera: "are locked"
 
 neontetra "${watch[@]}" --camera libcamera --csv libcamera_pulled.csv --frame-hashes libcamera_pulled.hashes 2>libcamera_pulled.txt &
 film=$!
-for _ in $(seq 300); do grep -qs "through libcamera" libcamera_pulled.txt && break; sleep 0.1; done
-sleep 6
+films libcamera_pulled.txt "are locked"
+sleep 5
 kill $camera
 wait $film
 status=$?

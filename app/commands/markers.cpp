@@ -251,14 +251,18 @@ Json report_of(const Player& player, const MarkerFile& file, const Summary& s) {
 }
 
 std::string line_of(const Json& json) {
-  char text[300];
+  char text[300], held[100] = "";
+  if (const auto frames = json["frames_held"].get<int64_t>(); frames > 0) {
+    std::snprintf(held, sizeof held, "; in %lld frames no marker is seen, and the last pose stays",
+                  static_cast<long long>(frames));
+  }
   std::snprintf(text, sizeof text,
                 "%lld frames, %zu markers, lattice of %zu vertices; largest step of a vertex %.2f %% of the mesh's "
-                "diagonal (frame %lld), bones within %.4f %%, %.0f us a frame\n",
+                "diagonal (frame %lld), bones within %.4f %%, %.0f us a frame%s\n",
                 static_cast<long long>(json["frames"].get<int64_t>()), json["markers"].get<std::size_t>(),
                 json["lattice"]["vertices"].get<std::size_t>(), 100.0 * json["largest_step"].get<double>(),
                 static_cast<long long>(json["largest_step_frame"].get<int64_t>()),
-                100.0 * json["bone_error_worst"].get<double>(), json["frame_us_mean"].get<double>());
+                100.0 * json["bone_error_worst"].get<double>(), json["frame_us_mean"].get<double>(), held);
   return text;
 }
 

@@ -86,7 +86,7 @@ std::vector<std::string> strings_of(const Bytes& b, const Parameter& p) {
 }
 
 struct Header {
-  std::size_t points = 0, analog = 0, frames = 0, data = 0;
+  std::size_t points = 0, analog = 0, frames = 0, promised = 0, data = 0;
   float scale = -1.0f;
   double rate = 0.0;
 };
@@ -105,6 +105,7 @@ Header read_header(const Bytes& b, const std::string& name) {
   const std::size_t word = h.scale < 0.0f ? 4 : 2, bytes = (4 * h.points + h.analog) * word;
   // The header's last frame wraps at 65535 in long files: the file's own length is the better witness.
   const std::size_t there = (b.size() - h.data) / bytes;
+  h.promised = last >= first && last != 65535 ? last - first + 1 : there;
   h.frames = last >= first ? std::min(last - first + 1, there) : there;
   if (h.frames == 0) throw UserError(name + " has no frame in it");
   return h;
@@ -153,6 +154,10 @@ MarkerFile parse_c3d(std::span<const std::byte> bytes, const std::string& name) 
       const auto units = strings_of(b, p);
       if (!units.empty()) unit = scale_to_mm(upper(units[0]));
     }
+  }
+  if (h.promised > h.frames) {
+    out.notes.push_back(name + " ends early: of its " + std::to_string(h.promised) + " frames " +
+                        std::to_string(h.frames) + " are there");
   }
   if (out.names.empty()) out.notes.push_back("no labels: the markers are called M1 to M" + std::to_string(h.points));
   out.names.resize(h.points);

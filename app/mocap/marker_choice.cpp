@@ -7,9 +7,20 @@
 #include "platform/camera.h"
 
 namespace nt {
+namespace {
+
+// A marker's whole name is that one alone (M4, not M40); another word all whose names begin so.
+bool picks(const std::string& word, const MarkerFile& file, std::size_t m) {
+  if (word.empty()) return false;
+  const bool whole = std::find(file.names.begin(), file.names.end(), word) != file.names.end();
+  return whole ? file.names[m] == word : file.names[m].starts_with(word);
+}
+
+}  // namespace
 
 void add_marker_choice(CLI::App& command, MarkerChoice& choice) {
-  command.add_option("--only", choice.only, "markers whose names begin so, separated by commas")->type_name("NAMES");
+  command.add_option("--only", choice.only, "markers by their names, or by how those begin, separated by commas")
+      ->type_name("NAMES");
   command
       .add_option("--axes", choice.axes,
                   "the recording's axes that are the mesh's x, y, z, such as x,z,-y (default: by trying)")
@@ -39,7 +50,7 @@ std::vector<std::size_t> chosen_markers(const MarkerFile& file, const MarkerChoi
     for (std::size_t from = 0; from < only.size();) {
       const std::size_t to = std::min(only.find(',', from), only.size());
       const std::string word = only.substr(from, to - from);
-      wanted = wanted || (!word.empty() && file.names[m].rfind(word, 0) == 0);
+      wanted = wanted || picks(word, file, m);
       from = to + 1;
     }
     if (wanted) out.push_back(m);

@@ -14,7 +14,7 @@ class App;
 namespace nt {
 
 struct MarkerChoice {
-  std::string only;     // names begin with one of these words, separated by commas; all where it is empty
+  std::string only;     // names, or how names begin, separated by commas; all where it is empty
   std::string axes;     // registration.h, parse_axes; "" tries all
   int64_t frame = 0;    // where the actor stands as the mesh does
   bool mirror = false;  // a right hand's recording for a left one

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "app/mocap/marker_choice.h"
 #include "app/mocap/registration.h"
 #include "core/base/random.h"
 #include "platform/camera.h"
@@ -84,6 +85,15 @@ TEST(MarkerFileTest, C3dUnitsAndMissingLabels) {
   EXPECT_EQ(m.notes.size(), 1u);
 }
 
+TEST(MarkerFileTest, AC3dThatIsCutShortSaysSo) {
+  const std::string whole = small_c3d(-1.0f);
+  EXPECT_TRUE(parse(whole).notes.empty());
+  const MarkerFile m = parse(whole.substr(0, whole.size() - 32));
+  EXPECT_EQ(m.frames(), 2u);
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_EQ(m.notes[0], "small.c3d ends early: of its 3 frames 2 are there");
+}
+
 TEST(MarkerFileTest, TextFormats) {
   const MarkerFile trc = parse_marker_text(
       "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
@@ -139,6 +149,23 @@ TEST(MarkerFileTest, FuzzedFilesDoNoHarm) {
     }
   }
   EXPECT_GT(read, 2000);
+}
+
+TEST(MarkerChoiceTest, AWholeNameIsOneMarkerAndItsBeginningAllThatBeginSo) {
+  MarkerFile file;
+  file.names = {"M4", "M40", "knee_l", "knee_r"};
+  file.positions.resize(4);
+  const auto picks = [&](const char* only) {
+    MarkerChoice choice;
+    choice.only = only;
+    return chosen_markers(file, choice);
+  };
+  using Places = std::vector<std::size_t>;
+  EXPECT_EQ(picks("M4"), (Places{0}));
+  EXPECT_EQ(picks("M"), (Places{0, 1}));
+  EXPECT_EQ(picks("knee,M40"), (Places{1, 2, 3}));
+  EXPECT_EQ(picks(""), (Places{0, 1, 2, 3}));
+  EXPECT_THROW((void)picks("hip"), UserError);
 }
 
 struct Real {

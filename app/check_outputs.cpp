@@ -22,10 +22,20 @@ bool same_file(const std::string& a, const std::string& b) {
          std::filesystem::weakly_canonical(a, unused) == std::filesystem::weakly_canonical(b, unused);
 }
 
+// No folder is made: a name that was mistyped would be one.
+void expect_folder(const std::string& path) {
+  if (path.empty() || path == "-") return;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code unused;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, unused))
+    throw UserError("cannot write " + path + ": there is no folder " + folder.string() + "; create it first");
+}
+
 }  // namespace
 
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
+    expect_folder(outputs[i]);
     for (const std::string& input : inputs) {
       if (same_file(outputs[i], input))
         throw UserError(outputs[i] + " is read by this command and would be overwritten; give the output another name",

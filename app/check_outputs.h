@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Before a command writes anything: no output may be one of the files that it reads, nor may two outputs be one file.
+// Before a command works: no output may be one of the files that it reads, nor may two outputs be one file, and the folder of
+// each is there.
 //
-// Paths -> UserError (code 2, one line) or nothing. Empty paths and "-" (standard output) are passed over. Files are
+// Paths -> UserError (one line; code 2, of a missing folder 1) or nothing. Empty paths and "-" (standard output) are passed over. Files are
 // compared, not spellings: a link to the video is the video.
 #pragma once
 #include <string>

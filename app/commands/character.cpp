@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "app/author/character_file.h"
 #include "app/author/mesh_character.h"
@@ -28,9 +29,10 @@ struct Options {
   LatticeRequest lattice;
 };
 
-// A character before it is corrected, and where its mesh lies in its figure.
+// A character before it is corrected, what is to be said of it, and where its mesh lies in its figure.
 struct Proposed {
   LoadedCharacter file;
+  std::string found;
   std::optional<FigureFromFile> figure_from_file;
 };
 
@@ -79,6 +81,11 @@ std::string output_of(const Options& options) {
 void check_options(const Options& options, const std::string& out) {
   if (options.lattice.by_markers() && !options.lattice.wanted)
     throw UserError("character: --skeleton and --markers are a lattice's; add --lattice", 2);
+  if (options.lattice.wanted && options.vertices.value_or(0) > Limits{}.max_lattice_vertices) {
+    throw UserError("character: --vertices with --lattice are the lattice's, " +
+                        std::to_string(Limits{}.max_lattice_vertices) + " at most",
+                    2);
+  }
   if (options.lattice.wanted && options.correct.edit)
     throw UserError("character: --edit first, then --lattice: it is made for the corrected points", 2);
   const bool vertices = options.vertices && !options.lattice.wanted;
@@ -94,13 +101,13 @@ void check_options(const Options& options, const std::string& out) {
   check_outputs(inputs, {out, options.preview});
 }
 
-// What the input holds before it is corrected; what was found in it is said.
+// What the input holds before it is corrected.
 Proposed proposal_of(const Options& options, const std::string& out, const Corrections& corrections) {
-  if (is_character(options.input)) return {LoadedCharacter(options.input, Limits{}), {}};
+  if (is_character(options.input)) return {LoadedCharacter(options.input, Limits{}), "", {}};
   const AuthoredCharacter authored = author(options, corrections);
   const std::string& name = out.empty() ? options.input : out;
-  std::fputs((name + ": " + found(authored.report)).c_str(), options.correct.list ? stderr : stdout);
-  return {LoadedCharacter(authored.bytes, name, Limits{}), authored.figure_from_file};
+  return {LoadedCharacter(authored.bytes, name, Limits{}), name + ": " + found(authored.report),
+          authored.figure_from_file};
 }
 
 // The lattice that is asked for, or a swimmer's that the input had: it is made anew for the corrected points.
@@ -118,30 +125,35 @@ std::optional<LatticeAsset> lattice_of(const Options& options, const Proposed& p
   }
   if (!request.wanted) return std::nullopt;
   const FigureFromFile* place = proposed.figure_from_file ? &*proposed.figure_from_file : nullptr;
-  std::optional<LatticeAsset> asset(lattice_for(corrected, request, options.input, place));
-  std::fprintf(options.correct.list ? stderr : stdout, "%s\n", describe(*asset).c_str());
-  return asset;
+  return lattice_for(corrected, request, options.input, place);
 }
 
 void make_character(const Options& options) {
   const std::string out = output_of(options);
   check_options(options, out);
   const Corrections corrections = corrections_for(options.correct, out.empty() ? options.input : out);
-  const Proposed proposal = proposal_of(options, out, corrections);
+  Proposed proposal = proposal_of(options, out, corrections);
   const RiggedFigure figure(proposal.file.character());
   const Rig rig = corrected(figure.found_for(corrections), corrections);
   const RiggedCharacter made = figure.with(rig);
   if (!options.preview.empty()) write_preview(options.preview, made.character);
   if (options.correct.list) write_text("-", list_of_points(rig, options.correct.json));
-  // What the editor saves gets its lattice, too.
+  // Standard output is the list's, where one is asked for.
+  const auto say = [&](const std::string& text) {
+    if (options.correct.list) std::fputs(text.c_str(), stderr);
+    else write_text("-", text);
+  };
+  // What the editor saves gets its lattice, too. What is said of a character is said of one that was saved.
   const auto save = [&](const Character& character, const Corrections& by) {
     Character whole = character;
     const std::optional<LatticeAsset> lattice = lattice_of(options, proposal, character);
     if (lattice) whole.lattice = lattice->view();
     save_character(out, whole, by);
+    say(std::exchange(proposal.found, "") + (lattice ? describe(*lattice) + "\n" : ""));
   };
   const bool fresh = !is_character(options.input) || !options.correct.set.empty();
   if (!out.empty() && (fresh || !options.correct.edit)) save(made.character, corrections);
+  else say(proposal.found);
   if (options.correct.edit) edit_character(out, made.character, corrections, options.correct, save);
 }
 

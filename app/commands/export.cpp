@@ -159,7 +159,9 @@ void export_take(const Options& options) {
              report_of(options, fish.front(), performances.front())};
   format.write(job);
   const Performance& shown = performances.front();
-  std::fprintf(stderr, "%s: %zu frames at %g a second\n", options.out.c_str(), shown.frames.size(), shown.fps);
+  const std::string file = job.report.value("first_file", options.out);  // of a series the first
+  std::fprintf(stderr, "%s%s: %zu frames at %g a second\n", file.c_str(), file == options.out ? "" : " and so on",
+               shown.frames.size(), shown.fps);
   if (shown.loop)
     std::fprintf(stderr, "the loop's seam: %.1f degrees and %.1f pixels were bridged\n",
                  shown.seam.angle_rad * 57.29577951308232, shown.seam.drift_px);

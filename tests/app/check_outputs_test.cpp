@@ -33,6 +33,12 @@ TEST(CheckOutputs, AnInputIsNeverOverwritten) {
   EXPECT_EQ(code_of({video}, {dir / "./fish.avi"}), 2) << "another spelling too";
 }
 
+TEST(CheckOutputs, AFolderThatIsNotThereIsSaidBeforeTheWork) {
+  const nt::TempDir dir;
+  EXPECT_EQ(code_of({}, {dir / "new/a.csv"}), 1);
+  EXPECT_EQ(code_of({}, {dir / "a.csv", "here.csv", "-", ""}), 0);
+}
+
 TEST(CheckOutputs, TwoOutputsAreTwoFiles) {
   const nt::TempDir dir;
   EXPECT_EQ(code_of({}, {dir / "a.csv", dir / "./a.csv"}), 2);

@@ -11,7 +11,7 @@ says usb.txt "480x272 yuyv at 5 frames a second"
 
 neontetra "${watch[@]}" --camera v4l2:/dev/video0 --frames 2 2>locked.txt || { cat locked.txt; fail "locking the exposure"; }
 says locked.txt "; locked: exposure"
-[[ $(cut -d' ' -f2 <camera.txt) == $'1\n156\n8' ]] || { cat camera.txt; fail "exposure is not locked and given back"; }
+[[ $(cut -d' ' -f3 <camera.txt) == $'1\n156\n8' ]] || { cat camera.txt; fail "exposure is not locked and given back"; }
 falls_silent v4l2:/dev/video0,lock=off "frames a second"
 
 neontetra "${watch[@]}" --camera v4l2:/dev/video0,lock=off,wait=1 --csv pulled.csv --take pulled.take 2>pulled.txt &

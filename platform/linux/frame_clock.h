@@ -5,6 +5,7 @@
 // always grow. A clock that steps back, runs ahead of ours or lies far behind it is replaced by ours for that frame; a count
 // that stands still or leaps is taken as one frame more. Nanoseconds, steady clock; allocates nothing.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 namespace nt {
@@ -33,7 +34,8 @@ class FrameClock {
     const auto ahead = static_cast<int32_t>(count - last_count_);
     return any_ && !restarted_ && ahead < 0 && ahead > -kMostLate;
   }
-  // The driver counts anew from here on: what was missed is told by the time that went by.
+  // The driver counts anew from here on: what was missed is told by the time that went by, at the rate of the frames so far, and
+  // at most `fps`: in dim light, or asked for nothing, a camera films more slowly than it says.
   void restart(double fps) { restarted_ = any_, fps_ = fps; }
 
   int64_t epoch_ns() const { return epoch_ns_; }
@@ -43,11 +45,14 @@ class FrameClock {
   static constexpr int64_t kAhead_ns = 100'000'000;  // what two processors' clocks and rounding may differ by, and more
   static constexpr int64_t kBehind_ns = 5'000'000'000;
   static constexpr int32_t kMostLate = 32;
+  static constexpr uint64_t kEnough = 5;          // frames
   static constexpr uint32_t kMostStep = 100'000;  // an hour at 30 frames a second
 
   static uint64_t step(uint32_t counts) { return counts == 0 || counts > kMostStep ? 1 : counts; }
   uint64_t lost(int64_t at_ns) const {
-    const double frames = static_cast<double>(at_ns - last_ns_) * 1e-9 * fps_;
+    const double seen_s = static_cast<double>(last_ns_ - epoch_ns_) * 1e-9;
+    const double fps = sequence_ >= kEnough ? std::min(static_cast<double>(sequence_) / seen_s, fps_) : fps_;
+    const double frames = static_cast<double>(at_ns - last_ns_) * 1e-9 * fps;
     return frames > 1.5 ? static_cast<uint64_t>(frames - 0.5) : 0;
   }
 

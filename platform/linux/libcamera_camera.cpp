@@ -26,6 +26,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "platform/linux/clock.h"
 #include "platform/linux/frame_clock.h"
@@ -317,11 +318,9 @@ class LibcameraCamera : public Camera {
       camera_->queueRequest(request.get());
     }
     if (settings_.lock && !locked_) settling_.emplace();
-    if (!told_) {
-      manners_.say("camera: " + model_of(*camera_) + ", " + std::to_string(layout_.width) + "x" +
-                   std::to_string(layout_.height) + " " + to_string(layout_.format) + " through libcamera");
-    }
-    told_ = true;
+    if (std::exchange(told_, true)) return;
+    manners_.say("camera: " + model_of(*camera_) + ", " + std::to_string(layout_.width) + "x" +
+                 std::to_string(layout_.height) + " " + to_string(layout_.format) + " through libcamera");
   }
 
   void stop() {

@@ -104,6 +104,16 @@ TEST_F(LatticeCommand, WhatDoesNotGoTogetherIsSaid) {
   refused("character " + out_ + " --lattice --markers " + places_, "give the mesh");
 }
 
+TEST_F(LatticeCommand, OnlyACharacterThatWasSavedIsSpokenOf) {
+  refused("character " + mesh_ + " --lattice --vertices 2500 --out " + out_, "2000 at most");
+  const Outcome unwritten = neontetra("character " + mesh_ + " --lattice --out " + out_, 1);
+  EXPECT_EQ(unwritten.exit_code, 1);
+  EXPECT_EQ(unwritten.out, "");
+  const Outcome untold = neontetra("character " + mesh_ + " --out " + out_ + " >/dev/full");
+  EXPECT_EQ(untold.exit_code, 1);
+  EXPECT_NE(untold.err.find("standard output"), std::string::npos) << untold.err;
+}
+
 TEST(MarkerPlaces, MistakesNameTheLine) {
   const TriangleMesh mesh{{{1, 2, 3}, {4, 5, 6}}, {}};
   const auto places = parse_marker_places("a 1 2 3\n# none\nb 1\n", "m", mesh);

@@ -46,6 +46,13 @@ TEST(FrameClock, AfterARestartTheTimeTellsWhatWasMissed) {
   EXPECT_EQ(clock.take(1, 1066 * kMs, 1066 * kMs).sequence, 2u + 30);
 }
 
+TEST(FrameClock, ACameraThatFilmsMoreSlowlyThanItSaysMissesFewer) {
+  FrameClock clock;
+  for (uint32_t i = 0; i <= 10; ++i) clock.take(i, i * 200 * kMs, i * 200 * kMs);
+  clock.restart(30);
+  EXPECT_EQ(clock.take(0, 4000 * kMs, 4000 * kMs).sequence, 20u);
+}
+
 TEST(FrameClock, APictureThatWasOvertakenIsLate) {
   FrameClock clock;
   EXPECT_FALSE(clock.is_late(7)) << "there is nothing to be behind";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/export/output_file.h"
 #include "platform/camera.h"
 
 namespace nt {
@@ -20,15 +21,6 @@ bool same_file(const std::string& a, const std::string& b) {
   std::error_code unused;
   return std::filesystem::equivalent(a, b, unused) ||
          std::filesystem::weakly_canonical(a, unused) == std::filesystem::weakly_canonical(b, unused);
-}
-
-// No folder is made: a name that was mistyped would be one.
-void expect_folder(const std::string& path) {
-  if (path.empty() || path == "-") return;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code unused;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, unused))
-    throw UserError("cannot write " + path + ": there is no folder " + folder.string() + "; create it first");
 }
 
 }  // namespace

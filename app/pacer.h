@@ -4,8 +4,8 @@
 // Time now -> skips. Frames that are late are skipped to keep the clip's own speed, but at most kMostSkips in one go:
 // where decoding itself is too slow, skipping costs more time than it wins, and whoever plays must get back to the
 // window. Then the clip goes on from now, slower than it was filmed. With `kept` frames a clip stands for a camera, whose
-// driver keeps so many: one that is not later than that is shown, and what finds them all waiting goes to the newest, as
-// V4l2Camera does. Nanoseconds; allocates nothing.
+// driver keeps so many: one that is not later than that is shown, and what finds more waiting goes to the
+// newest. Nanoseconds; allocates nothing.
 #pragma once
 #include <cstdint>
 

@@ -138,9 +138,9 @@ void make_character(const Options& options) {
   const RiggedCharacter made = figure.with(rig);
   if (!options.preview.empty()) write_preview(options.preview, made.character);
   if (options.correct.list) write_text("-", list_of_points(rig, options.correct.json));
-  // Standard output is the list's, where one is asked for.
+  // Standard output is the list's, where one is asked for; the editor has saved what it saved, whoever listens.
   const auto say = [&](const std::string& text) {
-    if (options.correct.list) std::fputs(text.c_str(), stderr);
+    if (options.correct.list || options.correct.edit) std::fputs(text.c_str(), stderr);
     else write_text("-", text);
   };
   // What the editor saves gets its lattice, too. What is said of a character is said of one that was saved.

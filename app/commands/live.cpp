@@ -340,7 +340,7 @@ void check(const Options& options) {
   std::vector<std::string> inputs = inputs_of(options.capture);
   inputs.insert(inputs.end(), options.cast.characters.begin(), options.cast.characters.end());
   inputs.push_back(options.backdrop.path);
-  check_outputs(inputs, {options.json, options.take});
+  check_outputs(inputs, {options.json, options.take, options.record_to});
   const bool clicks = options.capture.scale_mm > 0 && !options.capture.scale_points;
   if (clicks && (options.layout == "alone" || !options.take.empty())) {
     throw UserError(

@@ -15,15 +15,18 @@
 
 namespace nt {
 
+void expect_folder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code unused;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, unused))
+    throw UserError("cannot write " + path + ": there is no folder " + folder.string() + "; create it first");
+}
+
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   // A process limit on file sizes would otherwise kill us instead of giving an error.
   static const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
   static_cast<void>(ignored);
-  const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-  std::error_code unused;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, unused)) {
-    throw UserError("cannot write " + path_ + ": there is no folder " + folder.string() + "; create it first");
-  }
+  expect_folder(path_);
   descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ >= 0) return;
   error_ = errno;

@@ -11,6 +11,9 @@
 
 namespace nt {
 
+// Throws UserError where the folder of `path` is missing. None is made: a name that was mistyped would be one.
+void expect_folder(const std::string& path);
+
 class OutputFile {
  public:
   explicit OutputFile(std::string path);  // throws UserError when it cannot be opened

@@ -305,7 +305,8 @@ class LibcameraCamera : public Camera {
       const auto frame_us = static_cast<int64_t>(std::llround(1e6 / info_.fps));
       controls.set(lc::controls::FrameDurationLimits, lc::Span<const int64_t, 2>({frame_us, frame_us}));
     }
-    if (locked_) controls.merge(*locked_);  // it is started again: its pictures must stay as bright as they were
+    // Started again: its pictures must stay as bright as they were. (A USB camera keeps that by itself.)
+    if (locked_) controls.merge(*locked_);
     const int error = camera_->start(&controls);
     if (error != 0)
       throw UserError(info_.name + ": the camera does not start (" + std::strerror(-error) +
@@ -334,9 +335,10 @@ class LibcameraCamera : public Camera {
     pixels_->forget();
   }
 
-  // libcamera's own thread.
+  // libcamera's own thread. What is cancelled was out when the camera stopped; but one that was refused for what it was to set
+  // comes round again, without that.
   void completed(lc::Request* request) {
-    if (request->status() == lc::Request::RequestCancelled) return;
+    if (request->status() == lc::Request::RequestCancelled && request->controls().empty()) return;
     const std::lock_guard lock(mutex_);
     if (count_ < done_.size()) done_[(first_ + count_++) % done_.size()] = request;
     wake_.notify_one();
@@ -427,11 +429,8 @@ class LibcameraCamera : public Camera {
     }
     settling_.reset();
     if (!locked_) locked_.emplace(camera_->controls());
-    return !automatic && stamp_first(request);
-  }
-
-  // Nothing to lock: the frame in hand is the first one.
-  bool stamp_first(lc::Request& request) {
+    if (automatic) return false;
+    // Nothing to lock: the frame in hand is the first one.
     const lc::FrameMetadata& metadata = request.buffers().begin()->second->metadata();
     clock_.take(metadata.sequence, static_cast<int64_t>(metadata.timestamp), steady_now_ns());
     return true;

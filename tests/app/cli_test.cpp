@@ -76,6 +76,8 @@ TEST(Cli, CharactersBackdropsAndSchoolsThatCannotBe) {
   expect_one_line(neontetra("live -c sim --character " + kCarp + " --info-text '%speed'"), 2, "%speed");
   expect_one_line(neontetra("live -c sim --layout behind --backdrop camera --character " + kCarp), 2,
                   "--layout behind");
+  expect_one_line(neontetra("live -c sim --record-to none/fish --display null --frames 5 --character " + kCarp), 1,
+                  "there is no folder none");
   expect_one_line(neontetra("live -c sim --layout alon --character " + kCarp), 2, "--layout");
 }
 

@@ -14,6 +14,7 @@ says libcamera.txt "through libcamera"
 says libcamera.txt "exposure and white balance are locked"
 says camera.txt "exposure mode 1"
 falls_silent libcamera: "are locked"
+grep -q "exposure mode 8" camera.txt && { cat camera.txt; fail "the exposure is given back when the camera is started again"; }
 
 neontetra "${watch[@]}" --camera libcamera --csv libcamera_pulled.csv --frame-hashes libcamera_pulled.hashes 2>libcamera_pulled.txt &
 film=$!

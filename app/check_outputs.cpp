@@ -23,11 +23,20 @@ bool same_file(const std::string& a, const std::string& b) {
          std::filesystem::weakly_canonical(a, unused) == std::filesystem::weakly_canonical(b, unused);
 }
 
+void expect_replaceable(const std::string& path) {
+  std::error_code unused;
+  if (path == "-" || !std::filesystem::exists(path, unused)) return;
+  if (std::filesystem::is_directory(path, unused)) throw UserError(path + " is a folder; name a file in it", 2);
+  if (path.ends_with(".take") || path.ends_with(".take.mkv"))
+    throw UserError(path + ": exists; a take is never overwritten, choose another name");
+}
+
 }  // namespace
 
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     expect_folder(outputs[i]);
+    expect_replaceable(outputs[i]);
     for (const std::string& input : inputs) {
       if (same_file(outputs[i], input))
         throw UserError(outputs[i] + " is read by this command and would be overwritten; give the output another name",

@@ -56,9 +56,14 @@ CameraManners manners(const std::shared_ptr<std::atomic<bool>>& ending) {
 
 bool interrupted() { return stop_asked; }
 
+void interrupt() { stop_asked = true; }
+
 void end_on_interrupt() {
-  std::signal(SIGINT, [](int) { stop_asked = true; });
-  std::signal(SIGTERM, [](int) { stop_asked = true; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { interrupt(); });
+}
+
+void die_of_interrupt() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
 }
 
 Session::Session(const CaptureOptions& options)

@@ -83,8 +83,11 @@ void expect_frames(const Session& session);
 // where it ended before its time.
 void end_of_frames(Session& session);
 
-// Set by Ctrl-C (installed in main): the loops end as at the end of the video, so files are complete.
+// Set by Ctrl-C, SIGTERM and a terminal that is closed (installed in main), or when nobody reads standard output any more: the
+// loops end as at the end of the video, so files are complete.
 bool interrupted();
+void interrupt();
 void end_on_interrupt();
+void die_of_interrupt();  // for work that writes nothing before its end
 
 }  // namespace nt

@@ -9,12 +9,15 @@
 #include <cstring>
 #include <utility>
 
+#include "app/session.h"
 #include "platform/camera.h"
+#include "platform/linux/clock.h"
 
 namespace nt {
 namespace {
 
 constexpr std::size_t kFlushAt = 64 * 1024;
+constexpr int64_t kFlushEvery_ns = 1'000'000'000;  // what a killed program loses at most
 
 }  // namespace
 
@@ -36,7 +39,10 @@ TextFile::~TextFile() {
 
 void TextFile::write(std::string_view text) {
   waiting_ += text;
-  if (waiting_.size() >= kFlushAt) flush();
+  const int64_t now_ns = steady_now_ns();
+  if (waiting_.size() < kFlushAt && now_ns < flushed_ns_ + kFlushEvery_ns) return;
+  flushed_ns_ = now_ns;
+  flush();
 }
 
 void TextFile::close() {
@@ -57,6 +63,7 @@ void TextFile::flush() {
     if (error == EINTR) continue;
     if (error == EPIPE && is_stdout_) {
       file_ = -1;
+      interrupt();
       break;
     }
     if (keeps_rows_) take_back_cut_row(done);

@@ -3,8 +3,10 @@
 //
 // Rows go in whole. When the disk is full the file keeps its complete rows, and UserError says so in one line. Where
 // something else ends the program early the destructor still writes the rows that wait.
-// A reader of standard output that stops early (`neontetra bench | head -1`) is no error: the rest is dropped.
+// A reader of standard output that stops early (`neontetra bench | head -1`) is no error: the rest is dropped, and the program
+// ends as by Ctrl-C. Rows wait for a second at most.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -28,6 +30,7 @@ class TextFile {
 
   std::string path_;
   std::string waiting_;
+  int64_t flushed_ns_ = 0;
   int file_ = -1;
   bool is_stdout_ = false;
   bool keeps_rows_ = false;  // rows, in a regular file: not a pipe or a device

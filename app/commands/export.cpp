@@ -18,6 +18,7 @@
 #include "app/export/report.h"
 #include "app/export/take_pictures.h"
 #include "app/progress.h"
+#include "app/session.h"
 #include "app/text_file.h"
 #include "app/ui/backdrop.h"
 #include "platform/camera.h"
@@ -83,7 +84,7 @@ void to_mp4(Export& e) {
   Film film(e.options.out, "", pane.width, pane.height, troupe.fps());
   Progress progress(static_cast<int64_t>(troupe.frames()));
   Scene scene;
-  for (std::size_t i = 0; i < troupe.frames(); ++i) {
+  for (std::size_t i = 0; i < troupe.frames() && !interrupted(); ++i) {
     troupe.show(i, 1);
     scene.clear(pane.width, pane.height, backdrop.colour());
     backdrop.draw(scene);
@@ -116,7 +117,7 @@ void to_sprite(Export& e) {
 struct Format {
   const char* name;
   void (*write)(Export&);
-  bool needs_character, all_fish, is_text;
+  bool needs_character, frame_by_frame, is_text;  // frame by frame: of all fish
 };
 constexpr Format kFormats[] = {
     {"glb", to_glb, true, false, false},       {"bvh", to_bvh, false, false, true}, {"csv", to_csv, false, false, true},
@@ -150,18 +151,20 @@ void export_take(const Options& options) {
   inputs.push_back(options.take.take), inputs.push_back(options.backdrop.path);
   check_outputs(inputs, {options.out, options.json});
   std::vector<EditedTake> fish = load_fish(options.take.take, options.take.fish, !options.take.recorded);
-  if (!format.all_fish) fish.resize(1);
+  if (!format.frame_by_frame) fish.resize(1);
   const std::vector<Performance> performances = performances_of(fish, options.take);
   std::optional<Wardrobe> wardrobe;
   if (!options.take.characters.empty())
     wardrobe.emplace(options.take.characters, options.take.mls, options.take.deformer);
   Export job{options, fish, performances, wardrobe ? &*wardrobe : nullptr,
              report_of(options, fish.front(), performances.front())};
+  if (!format.frame_by_frame) die_of_interrupt();
   format.write(job);
   const Performance& shown = performances.front();
   const std::string file = job.report.value("first_file", options.out);  // of a series the first
   std::fprintf(stderr, "%s%s: %zu frames at %g a second\n", file.c_str(), file == options.out ? "" : " and so on",
                shown.frames.size(), shown.fps);
+  if (interrupted()) std::fprintf(stderr, "stopped before its end\n");
   if (shown.loop)
     std::fprintf(stderr, "the loop's seam: %.1f degrees and %.1f pixels were bridged\n",
                  shown.seam.angle_rad * 57.29577951308232, shown.seam.drift_px);

@@ -21,7 +21,7 @@ constexpr const char* kExtension = ".take";
 constexpr const char* kBin = ".deleted-takes";
 
 struct Options {
-  std::vector<std::string> paths{"."};
+  std::vector<std::string> paths;
   bool json = false, discard = false, repair = false;
   std::string name, tags, notes, trim, join, thumbnails;
 };
@@ -188,11 +188,13 @@ void discard(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     const std::string video = video_beside(file, open(file, Take::Access::edit).info());  // nobody is writing to it
     const fs::path bin = fs::path(file).parent_path() / kBin;
-    fs::create_directories(bin);
+    std::error_code error;
+    fs::create_directories(bin, error);
+    if (error)
+      throw UserError(bin.string() + ": cannot be created: " + error.message() + "; check the rights of its folder");
     fs::path to = bin / fs::path(file).filename();
     for (int n = 2; fs::exists(to); ++n)
       to = bin / (fs::path(file).stem().string() + "-" + std::to_string(n) + kExtension);
-    std::error_code error;
     fs::rename(file, to, error);
     if (error) throw UserError(file + ": cannot be moved to " + to.string() + ": " + error.message());
     std::fprintf(stderr, "%s: moved to %s\n", file.c_str(), to.c_str());
@@ -237,15 +239,18 @@ void takes(const Options& options) {
                       static_cast<int>(options.repair) + static_cast<int>(!options.trim.empty()) +
                       static_cast<int>(!options.join.empty());
   if (actions > 1) throw UserError("takes: one of --trim, --join, --delete, --repair, --thumbnails at a time", 2);
-  const std::vector<std::string> files = files_of(options.paths);
   const bool changes = !options.name.empty() || !options.tags.empty() || !options.notes.empty();
+  const bool lists = actions == 0 && !changes;
+  if (options.paths.empty() && !lists) throw UserError("takes: say which: name the take that is to be changed", 2);
+  const std::vector<std::string> files =
+      files_of(options.paths.empty() ? std::vector<std::string>{"."} : options.paths);
   if (changes) change_info(files, options);
   if (!options.thumbnails.empty()) write_thumbnails(files, options.thumbnails);
   else if (options.discard) discard(files);
   else if (options.repair) repair(files);
   else if (!options.trim.empty()) trim(files, options.trim);
   else if (!options.join.empty()) join(options.paths, options.join);
-  else if (!changes) list(files, options.json);
+  else if (lists) list(files, options.json);
 }
 
 }  // namespace
@@ -253,7 +258,7 @@ void takes(const Options& options) {
 void add_takes(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("takes", "List what has been recorded; rename, trim, join, delete, repair");
   auto options = std::make_shared<Options>();
-  command->add_option("paths", options->paths, "takes, or folders of them (default: this folder)")
+  command->add_option("paths", options->paths, "takes, or folders of them (a list's default: this folder)")
       ->type_name("FILE...");
   command->add_flag("--json", options->json, "the list for machines");
   command->add_option("--name", options->name, "give a take this name")->type_name("TEXT");

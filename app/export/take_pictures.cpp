@@ -11,6 +11,7 @@
 #include "app/export/pose_csv.h"
 #include "app/export/report.h"
 #include "app/progress.h"
+#include "app/session.h"
 #include "app/text_file.h"
 #include "core/base/det_math.h"
 #include "platform/camera.h"
@@ -170,7 +171,7 @@ std::string write_png_series(const std::string& path, Troupe& troupe, const Pane
   const std::unique_ptr<Display> display = open_headless_display(pane.width, pane.height);
   Progress progress(static_cast<int64_t>(troupe.frames()));
   Scene scene;
-  for (std::size_t i = 0; i < troupe.frames(); ++i) {
+  for (std::size_t i = 0; i < troupe.frames() && !interrupted(); ++i) {
     troupe.show(i, 1);
     scene.clear(pane.width, pane.height, kNothing);
     troupe.draw(scene);

@@ -13,6 +13,8 @@
 namespace nt {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int64_t kApplicationId = 0x4e54616b;  // "NTak"
 
 // A take with more frames missing for each that is there was not made by us.
@@ -306,7 +308,6 @@ void Take::trim(int64_t first, int64_t last) {
 }
 
 std::string video_beside(const std::string& path, const TakeInfo& info) {
-  namespace fs = std::filesystem;
   return info.video.empty() ? "" : (fs::path(path).parent_path() / fs::path(info.video).filename()).string();
 }
 
@@ -338,6 +339,32 @@ void salvage(Database& from, const TakeInfo& info, bool backwards, int64_t stop_
   }
 }
 
+// The whole pages of a take. Of one that was cut within a page SQLite would read the rest as zeros, which are in rows then.
+class WholePages {
+ public:
+  WholePages(const std::string& take, const std::string& beside) : path_(take) {
+    constexpr std::uintmax_t kPage = 4096;
+    const std::uintmax_t bytes = fs::file_size(take);
+    if (bytes % kPage == 0) return;
+    path_ = beside + ".part", is_copy_ = true;
+    fs::copy_file(take, path_, fs::copy_options::overwrite_existing);
+    fs::resize_file(path_, bytes / kPage * kPage);
+    if (fs::exists(take + "-wal")) fs::copy_file(take + "-wal", path_ + "-wal", fs::copy_options::overwrite_existing);
+  }
+  ~WholePages() {
+    std::error_code unused;
+    for (const char* part : {"", "-wal", "-shm"})
+      if (is_copy_) fs::remove(path_ + part, unused);
+  }
+  WholePages(const WholePages&) = delete;
+  WholePages& operator=(const WholePages&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  bool is_copy_ = false;
+};
+
 }  // namespace
 
 int64_t repair_take(const std::string& from, const std::string& to) {
@@ -345,7 +372,9 @@ int64_t repair_take(const std::string& from, const std::string& to) {
   TakeInfo info;
   std::vector<TakeFrame> head, tail;
   try {
-    Database database(from, Database::Mode::write);
+    const WholePages pages(from, to);
+    Database database(pages.path(), Database::Mode::write);
+    database.execute("PRAGMA writable_schema = ON");  // else a file that ends early is refused as a whole
     Statement get = database.prepare("SELECT key, value FROM info");
     while (get.step()) {
       const std::string key = get.text(0);
@@ -365,6 +394,9 @@ int64_t repair_take(const std::string& from, const std::string& to) {
     if (!is_sane(info)) throw DatabaseError(SQLITE_CORRUPT, "its description is lost");
     salvage(database, info, false, 0, head);
     salvage(database, info, true, head.empty() ? INT64_MIN : head.back().frame, tail);
+    if (head.empty() && tail.empty()) throw DatabaseError(SQLITE_CORRUPT, "none of its frames can be read");
+  } catch (const fs::filesystem_error& error) {
+    throw UserError(to + ": cannot be written: " + error.code().message());
   } catch (const DatabaseError& error) {
     throw UserError(from + ": beyond repair (" + error.what() + ")");
   }

@@ -39,6 +39,15 @@ TEST(CheckOutputs, AFolderThatIsNotThereIsSaidBeforeTheWork) {
   EXPECT_EQ(code_of({}, {dir / "a.csv", "here.csv", "-", ""}), 0);
 }
 
+TEST(CheckOutputs, FoldersAndTakesAreNotWrittenOver) {
+  const nt::TempDir dir;
+  for (const char* name : {"old.take", "old.take.mkv", "old.csv"}) std::ofstream(dir / name) << "old";
+  EXPECT_EQ(code_of({}, {dir.path()}), 2);
+  EXPECT_EQ(code_of({}, {dir / "old.take"}), 1);
+  EXPECT_EQ(code_of({}, {dir / "old.take.mkv"}), 1);
+  EXPECT_EQ(code_of({}, {dir / "new.take", dir / "old.csv"}), 0);
+}
+
 TEST(CheckOutputs, TwoOutputsAreTwoFiles) {
   const nt::TempDir dir;
   EXPECT_EQ(code_of({}, {dir / "a.csv", dir / "./a.csv"}), 2);

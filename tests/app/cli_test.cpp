@@ -192,5 +192,25 @@ TEST(Cli, AReaderThatStopsEarlyIsNoError) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// A run without an end: it would go on for ever.
+TEST(Cli, WhereNobodyReadsItsRowsARunEnds) {
+  const Outcome outcome =
+      neontetra("capture -c sim:scene=ghost,size=160x96 --work-size 160x96 --background vibe --csv - | head -1");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("frames, "), std::string::npos) << outcome.err;
+}
+
+// Two seconds of it; what a program that is killed outright leaves is at most one second short.
+TEST(Cli, AClosedTerminalEndsARunAndAKillLeavesItsRows) {
+  const TempDir dir;
+  for (const char* signal : {"HUP", "KILL"}) {
+    const std::string csv = dir / (std::string(signal) + ".csv");
+    const Outcome outcome = neontetra(
+        "capture -c sim:scene=ghost,size=160x96 --work-size 160x96 --background vibe --real-time --csv " + csv +
+        " & p=$!; until [ $(wc -l <" + csv + ") -gt 30 ]; do sleep 0.1; done; kill -" + signal + " $p; wait $p");
+    EXPECT_EQ(outcome.exit_code == 0, std::string(signal) == "HUP") << signal;
+  }
+}
+
 }  // namespace
 }  // namespace nt

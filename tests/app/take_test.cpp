@@ -171,6 +171,22 @@ TEST(Take, DamagedPagesAreRefusedAndRepaired) {
   }
 }
 
+TEST(Take, OneThatEndsEarlyIsRepairedUpToThere) {
+  const TempDir dir;
+  make_take(dir / "a.take", 2000);
+  const std::string whole = read_file(dir / "a.take");
+  for (const std::size_t missing : {whole.size() / 50, whole.size() / 50 / 4096 * 4096, whole.size() / 20}) {
+    write_text(dir / "b.take", whole.substr(0, whole.size() - missing));
+    std::filesystem::remove(dir / "c.take");
+    EXPECT_GT(repair_take(dir / "b.take", dir / "c.take"), 1500) << missing;
+    EXPECT_FALSE(std::filesystem::exists(dir / "c.take.part"));
+    for (const TakeFrame& frame : Take::open(dir / "c.take", Take::Access::read).frames(0)) {
+      if (!frame.recorded) continue;
+      EXPECT_EQ(row_of(frame), row_of(test_take_frame(frame.frame)));
+    }
+  }
+}
+
 // Bytes thrown in and a file cut anywhere: refused with one line, or read; never a crash, never a number out of range.
 TEST(Take, SurvivesAnyDamage) {
   const TempDir dir;

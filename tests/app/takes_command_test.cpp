@@ -116,6 +116,9 @@ TEST(TakesCommand, MistakesAreOneLine) {
       {"takes --trim 5:9 " + a, "would leave none", 1},
       {"takes --join " + (dir / "j.take") + " " + a, "at least two", 2},
       {"takes --join " + a + " " + a + " " + a, "never overwritten", 1},
+      {"takes --trim 0:5", "say which", 2},
+      {"takes --name other", "say which", 2},
+      {"takes --delete", "say which", 2},
       {"takes --delete --repair " + a, "one of --trim", 2},
       {"edit " + a, "say one of", 2},
       {"edit " + a + " --edits " + (dir / "none"), "cannot read the edits", 1},
@@ -123,7 +126,8 @@ TEST(TakesCommand, MistakesAreOneLine) {
       {"export " + a + " --to fbx --out " + (dir / "x.fbx"), "fbx", 2},
       {"takes --repair " + (dir / "none.take"), "no such take", 1},
       {std::string(kSmallTank) + "--take " + a, "never overwritten", 1},
-      {std::string(kSmallTank) + "--take " + (dir / "no/such/folder.take"), "no such file", 1},
+      {std::string(kSmallTank) + "--csv " + a, "never overwritten", 1},
+      {std::string(kSmallTank) + "--take " + (dir / "no/such/folder.take"), "there is no folder", 1},
   };
   for (const auto& mistake : cases) {
     const Outcome run = neontetra(mistake.arguments);

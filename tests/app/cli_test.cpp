@@ -192,12 +192,12 @@ TEST(Cli, AReaderThatStopsEarlyIsNoError) {
   EXPECT_EQ(outcome.err, "");
 }
 
-// A run without an end: it would go on for ever.
 TEST(Cli, WhereNobodyReadsItsRowsARunEnds) {
-  const Outcome outcome =
-      neontetra("capture -c sim:scene=ghost,size=160x96 --work-size 160x96 --background vibe --csv - | head -1");
+  const Outcome outcome = neontetra(
+      "capture -c sim:scene=ghost,size=160x96 --work-size 160x96 --background vibe --frames 5000 --csv - | head -1");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.err.find("frames, "), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("5000 frames, "), std::string::npos) << outcome.err;
 }
 
 // Two seconds of it; what a program that is killed outright leaves is at most one second short.

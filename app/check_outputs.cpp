@@ -36,12 +36,12 @@ void expect_replaceable(const std::string& path) {
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     expect_folder(outputs[i]);
-    expect_replaceable(outputs[i]);
     for (const std::string& input : inputs) {
       if (same_file(outputs[i], input))
         throw UserError(outputs[i] + " is read by this command and would be overwritten; give the output another name",
                         2);
     }
+    expect_replaceable(outputs[i]);
     for (std::size_t k = 0; k < i; ++k) {
       if (same_file(outputs[i], outputs[k]))
         throw UserError(outputs[i] + " is named for two outputs; give each its own name", 2);

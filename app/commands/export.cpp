@@ -84,7 +84,8 @@ void to_mp4(Export& e) {
   Film film(e.options.out, "", pane.width, pane.height, troupe.fps());
   Progress progress(static_cast<int64_t>(troupe.frames()));
   Scene scene;
-  for (std::size_t i = 0; i < troupe.frames() && !interrupted(); ++i) {
+  std::size_t i = 0;
+  for (; i < troupe.frames() && !interrupted(); ++i) {
     troupe.show(i, 1);
     scene.clear(pane.width, pane.height, backdrop.colour());
     backdrop.draw(scene);
@@ -93,13 +94,15 @@ void to_mp4(Export& e) {
     progress.show(static_cast<int64_t>(i) + 1);
   }
   film.finish();
+  e.report["frames"] = i;
   e.report["width"] = pane.width, e.report["height"] = pane.height;
 }
 
 void to_png(Export& e) {
   const Pane pane = take_pane(e.take().info, e.scale());
   Troupe troupe(*e.wardrobe, e.performances, pane);
-  e.report["first_file"] = write_png_series(e.options.out, troupe, pane);
+  const PngSeries made = write_png_series(e.options.out, troupe, pane);
+  e.report["first_file"] = made.first_file, e.report["frames"] = made.frames;
   e.report["width"] = pane.width, e.report["height"] = pane.height;
 }
 
@@ -163,7 +166,7 @@ void export_take(const Options& options) {
   const Performance& shown = performances.front();
   const std::string file = job.report.value("first_file", options.out);  // of a series the first
   std::fprintf(stderr, "%s%s: %zu frames at %g a second\n", file.c_str(), file == options.out ? "" : " and so on",
-               shown.frames.size(), shown.fps);
+               job.report["frames"].get<std::size_t>(), shown.fps);
   if (interrupted()) std::fprintf(stderr, "stopped before its end\n");
   if (shown.loop)
     std::fprintf(stderr, "the loop's seam: %.1f degrees and %.1f pixels were bridged\n",

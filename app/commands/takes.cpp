@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/check_outputs.h"
 #include "app/cli.h"
 #include "app/export/png.h"
 #include "app/export/report.h"
@@ -214,6 +215,7 @@ void repair(const std::vector<std::string>& files) {
 // All thumbnails side by side.
 void write_thumbnails(const std::vector<std::string>& files, const std::string& out) {
   if (files.size() != 1) throw UserError("--thumbnails: of one take at a time", 2);
+  check_outputs(files, {out});
   std::vector<ThumbnailPixels> pictures;
   for (const Thumbnail& thumbnail : open(files.front(), Take::Access::read).thumbnails()) {
     ThumbnailPixels pixels = thumbnail_pixels(thumbnail.bmp);

@@ -167,11 +167,12 @@ class Sprites {
 
 }  // namespace
 
-std::string write_png_series(const std::string& path, Troupe& troupe, const Pane& pane) {
+PngSeries write_png_series(const std::string& path, Troupe& troupe, const Pane& pane) {
   const std::unique_ptr<Display> display = open_headless_display(pane.width, pane.height);
   Progress progress(static_cast<int64_t>(troupe.frames()));
   Scene scene;
-  for (std::size_t i = 0; i < troupe.frames() && !interrupted(); ++i) {
+  std::size_t i = 0;
+  for (; i < troupe.frames() && !interrupted(); ++i) {
     troupe.show(i, 1);
     scene.clear(pane.width, pane.height, kNothing);
     troupe.draw(scene);
@@ -179,7 +180,7 @@ std::string write_png_series(const std::string& path, Troupe& troupe, const Pane
     write_png(numbered(path, i), as_picture(display->pixels_with_alpha(), pane.width, pane.height));
     progress.show(static_cast<int64_t>(i) + 1);
   }
-  return numbered(path, 0);
+  return {numbered(path, 0), i};
 }
 
 SpriteSheet write_sprites(const std::string& path, const EditedTake& take, const Performance& performance,

@@ -12,8 +12,11 @@
 
 namespace nt {
 
-// Writes the frames; returns the name of the first.
-std::string write_png_series(const std::string& path, Troupe& troupe, const Pane& pane);
+struct PngSeries {
+  std::string first_file;
+  std::size_t frames = 0;  // fewer than there are after Ctrl-C
+};
+PngSeries write_png_series(const std::string& path, Troupe& troupe, const Pane& pane);
 
 struct SpriteSheet {
   std::string json_path;

@@ -93,6 +93,18 @@ TEST_F(TakePictures, APngSeriesIsTransparentWhereNobodyIs) {
   }
 }
 
+TEST_F(TakePictures, ASeriesThatIsStoppedSaysHowFarItCame) {
+  const Outcome run = export_to("png", "f.png",
+                                "--rate 200 --json " + file("f.json") + " & p=$!; until [ -e " + file("f-00002.png") +
+                                    " ]; do sleep 0.02; done; kill $p; wait $p");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("stopped before its end"), std::string::npos) << run.err;
+  const int frames = Json::parse(read_text(file("f.json")))["frames"];
+  EXPECT_LT(frames, 390);
+  EXPECT_FALSE(cv::imread(file(cv::format("f-%05d.png", frames - 1)), cv::IMREAD_UNCHANGED).empty());
+  EXPECT_FALSE(std::filesystem::exists(file(cv::format("f-%05d.png", frames))));
+}
+
 TEST_F(TakePictures, ASpriteSheetHasItsFishInEveryCell) {
   const Outcome run = export_to("sprite", "s.png", "--range 4:24 --length 150 --json -");
   ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -119,6 +119,7 @@ TEST(TakesCommand, MistakesAreOneLine) {
       {"takes --trim 0:5", "say which", 2},
       {"takes --name other", "say which", 2},
       {"takes --delete", "say which", 2},
+      {"takes --thumbnails " + a + " " + a, "would be overwritten", 2},
       {"takes --delete --repair " + a, "one of --trim", 2},
       {"edit " + a, "say one of", 2},
       {"edit " + a + " --edits " + (dir / "none"), "cannot read the edits", 1},
